@@ -20,6 +20,7 @@ from regscribe.reference import (
     UnknownValueError,
     decode,
     encode,
+    existing_members,
     holds,
     part_value,
     special_value,
@@ -30,7 +31,7 @@ from regscribe.simulate.device.device import SimulatedDevice
 from regscribe.testing.driver_checks import DriverUnderTest
 from regscribe.testing.vectors import Vectors
 from regscribe.tools.live.decode import Decoder
-from regscribe_runtime import SensorFault, ValueNotDecodable, ValueRefused
+from regscribe_runtime import NotPresent, SensorFault, ValueNotDecodable, ValueRefused
 from regscribe_runtime.registers.octets import OctetType
 from regscribe_runtime.wire.capture import CapturedFrame
 
@@ -105,7 +106,7 @@ def said_by_driver(found: Any) -> object:  # noqa: PLR0911 (as many kinds of val
         names = {one.name.lower() for one in type(found) if one in found}
         return {"flags": names} | ({"unnamed": rest} if rest else {})
     if hasattr(found, "parts"):
-        return {"fields": {name: said_of_part(value) for name, value in found}}
+        return {"fields": {name: said_of_part(part) for name, part in found if not isinstance(part, NotPresent)}}
     if hasattr(found, "label"):
         return {"name": found.name}
     return found
@@ -120,7 +121,7 @@ def expected_of(row: Json) -> object:
     if "flags" in row:
         return {"flags": set(row["flags"])} | ({"unnamed": row["unnamed"]} if "unnamed" in row else {})
     if "member" in row or "special" in row:
-        return {"name": row.get("member", row.get("special"))}
+        return {"name": row.get("member", row.get("special")).rpartition(".")[2]}
     if "fields" in row:
         return {"fields": {name: said_of_part(part) for name, part in row["fields"].items()}}
     return {key: row[key] for key in ("unknown", "fault") if key in row}
@@ -145,7 +146,8 @@ def value_for(built: Built, row: Json) -> Any:  # noqa: PLR0911 (as many kinds o
     register, _ = register_of(built, row)
     declared = built.module.CaseA.registers[row["register"]]
     if "member" in row:
-        return declared.value_type.make(next(one.code for one in register.enum.members if one.id == row["member"]))
+        place, _, name = row["member"].rpartition(".")
+        return declared.value_type.classes[int(place or 1) - 1][name]
     if "special" in row:
         return declared.value_type.special[row["special"]]
     if "flags" in row:
@@ -163,7 +165,7 @@ def value_for(built: Built, row: Json) -> Any:  # noqa: PLR0911 (as many kinds o
 def _word(register: Register, make: Any, parts: Json) -> Any:
     """A word whose parts are numbers, or report the faults of these ids."""
     numbers = {name: part for name, part in parts.items() if not isinstance(part, str)}
-    ends = [(one, fault.ends) for one in register.fields for fault in one.sentinels if fault.id == parts[one.id]]
+    ends = [(one, fault.ends) for one in register.fields for fault in one.sentinels if fault.id == parts.get(one.id)]
     faults = sum(int(found[0]) % (1 << one.width) << one.low for one, found in ends if found)
     return make(int(make(0).replace(**numbers)) | faults)
 
@@ -259,14 +261,14 @@ def read_by_reference(built: Built, memory: Any, row: Json) -> object:
         return {"unknown": int(reading.value or 0)}
     if reading.meaning is not Meaning.VALUE or reading.value is None:
         return {"no value": True}
-    return _said_by_reference(register, reading.value, row)
+    return _said_by_reference(register, reading.value, row, Present(built, memory).known)
 
 
-def _said_by_reference(register: Register, value: Fraction | str, row: Json) -> object:
+def _said_by_reference(register: Register, value: Fraction | str, row: Json, known: Surroundings) -> object:
     if isinstance(value, str):
         return value
     if "member" in row and register.enum:
-        return {"name": next(one.id for one in register.enum.members if one.code == value)}
+        return {"name": next(one.id for one in existing_members(register, known) if one.code == value)}
     if "special" in row:  # the reference gives its number: which name that has is the vectors' matter
         return expected_of(row)
     if "flags" in row:
@@ -274,7 +276,7 @@ def _said_by_reference(register: Register, value: Fraction | str, row: Json) -> 
         names = {one.id for one in register.fields if int(value) >> one.low & 1}
         return {"flags": names} | ({"unnamed": int(value) & ~named} if int(value) & ~named else {})
     if "fields" in row:
-        parts = {one.id: part_value(one, int(value)) for one in register.fields}
+        parts = {one.id: part_value(one, int(value)) for one in register.fields if holds(one.when, known)}
         return {"fields": {name: said_of_part(part) for name, part in parts.items()}}
     return value
 

@@ -197,19 +197,34 @@ def _meaning(draw: Draw, sel: Decider, name: str, kind: str) -> tuple[Json, Json
         keys, tables = _of_number(draw, sel, name, kind)
     elif form == "enum":
         off = _of(draw, "off", {"label": "off", "invalid": "not here"}, {"label": "off", "id": "fl14"})
-        keys = {"enum": {draw(st.integers(0, 3)): off, 4: "on", _of(draw, 5, *LIMITS[kind]): "last"}}
+        keys = {"enum": {draw(st.integers(0, 3)): off, 4: _named(draw, sel, "on"), _of(draw, 5, *LIMITS[kind]): "last"}}
+        keys = {"enum": _by_case(draw, sel, keys["enum"])} if _maybe(draw) else keys
     elif form == "flags":
-        keys = {"flags": {bit: f"bit {bit}" for bit in draw(st.sets(st.integers(0, most - 1), min_size=1, max_size=4))}}
+        bits = draw(st.sets(st.integers(0, most - 1), min_size=1, max_size=4))
+        keys = {"flags": {bit: _named(draw, sel, f"bit {bit}") for bit in bits}}
     elif form == "fields":
         first = draw(st.integers(0, most - 2))
         keys = {"fields": {"part": {"bits": f"{first}..{draw(st.integers(first + 1, most - 1))}"}}}
         keys["fields"] |= {"one": {"bit": first - 1}} if first else {}
+        keys["fields"]["part"] |= {"when": _condition(draw, sel)} if _maybe(draw) else {}
     else:
         keys = {"version": _of(draw, "n.n", "nn.nn", "nnn")} if form == "version" else {"kind": "boolean"}
     if _maybe(draw):
         table = _sentinels(draw, kind)
         keys["sentinels"] = [{"when": _condition(draw, sel), "is": table}] if _maybe(draw) else table
     return keys, tables
+
+
+def _named(draw: Draw, sel: Decider, label: str) -> Any:
+    """A member or a flag, which may exist in a case only."""
+    return {"label": label, "when": _condition(draw, sel)} if _maybe(draw, 4) else label
+
+
+def _by_case(draw: Draw, sel: Decider, codes: Json) -> list[Json]:
+    """An enum by case: the same codes in one, others in another."""
+    cases: list[Json] = [{"when": _condition(draw, sel), "is": codes}]
+    others = {0: "stop", 4: "off", draw(st.integers(5, 9)): _named(draw, sel, "on")}
+    return [*cases, {"is": others} if _maybe(draw, 2) else {"when": _condition(draw, sel), "is": others}]
 
 
 def _orders(draw: Draw, keys: Json) -> Json:

@@ -110,8 +110,8 @@ def test_an_absent_register_is_not_asked_for_and_names_the_condition() -> None:
     table = Table(mode=0)
     with pytest.raises(NotPresent) as caught:
         table.driver.level.read()
-    assert caught.value.present == {"mode": "OFF"}
-    assert "ranging (mode is 1)" in str(caught.value)
+    assert caught.value.present == {"mode": "OFF (0)"}
+    assert "ranging (mode is RANGE (1)); mode is OFF (0)" in str(caught.value)
     assert table.asked() == {0}
 
 

@@ -325,7 +325,8 @@ def _given(declared: Any, view: View, value: Value) -> Any:
     with suppress(Exception):  # a kind refuses as it likes what it cannot be
         made = declared.value_type.make(number)
         exactly = not isinstance(made, float) or Fraction(repr(made)) == value or view.type is WireType.FLOAT32
-        if made == number and exactly:
+        by_case = len(getattr(declared.value_type, "classes", ())) > 1  # which enum counts is not known here
+        if made == number and exactly and not by_case:
             return made
     return number
 

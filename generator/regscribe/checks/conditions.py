@@ -69,10 +69,25 @@ def _conditions(register: Register) -> Iterator[tuple[str, tuple[Condition, ...]
     for order in dict.fromkeys(order for view in register.views for order in (view.order, view.byte_order)):
         if isinstance(order, OrderCases) and not order.by_code():
             yield "word order", tuple(case.when for case in order.cases)
+    yield from _single_conditions(register)
+
+
+def _single_conditions(register: Register) -> Iterator[tuple[str, tuple[Condition, ...]]]:
+    """The conditions that stand alone, each with what it decides."""
+    for case in register.partial:
+        yield f"condition of {_partial_name(register, case.then)}", (case.when,)
     if register.writable:
         yield "condition for a write", (register.writable.when,)
     if not register.when.always:
         yield "condition of its existence", (register.when,)
+
+
+def _partial_name(register: Register, name: str) -> str:
+    """What exists only in a case: an enum by its place, a member, a flag or a part."""
+    place, _, member = name.partition(".")
+    if register.enum is None:
+        return f"`{name.lower()}`"
+    return f"member `{member}`" if member else f"enum {int(place) + 1}"
 
 
 def _shown(condition: Condition, place: int) -> str:

@@ -130,7 +130,8 @@ def enums_of(scope: RuleScope) -> Iterator[tuple[Register, str, Enum]]:
     """
     seen: set[int] = set()
     for register in scope.model.registers:
-        owned = [("", register.enum), *((bits.id, bits.enum) for bits in register.fields)]
+        own = register.enum.each if register.enum else ()
+        owned = [*(("", one) for one in own), *((bits.id, bits.enum) for bits in register.fields)]
         for field, enum in owned:
             if enum and id(enum) not in seen:
                 seen.add(id(enum))

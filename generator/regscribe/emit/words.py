@@ -134,7 +134,7 @@ def member_words(member: Member, enum: Enum) -> str:
 
 def labels_of(enum: Enum | None) -> dict[int, str]:
     """Return the labels of an enum's members by code; empty without an enum."""
-    return {member.code: member.label for member in enum.members} if enum else {}
+    return enum.labels if enum else {}
 
 
 def _labels(test: Is, model: Model | None) -> dict[int, str]:

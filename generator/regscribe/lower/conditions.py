@@ -65,6 +65,15 @@ def both(*conditions: Condition) -> Condition:
     return Condition(tuple(dict.fromkeys(test for part in parts for test in part.tests)))
 
 
+def exclusive(cases: Cases[Made]) -> Cases[Made]:
+    """The same cases, each under the condition that it is the first that holds."""
+    found: list[Case[Made]] = []
+    for place, (when, then) in enumerate(cases):
+        others = [one.when for one in cases[:place] if not excludes(when, one.when)]
+        found.append(Case(both(when, Condition(tuple(map(negated, others)))), then))
+    return tuple(found)
+
+
 def excludes(one: Condition, other: Condition) -> bool:
     """Whether the two plainly cannot hold together: a test and its contrary, or codes that have none in common."""
     return any(_contrary(test, against) for test in one.tests for against in other.tests)
@@ -94,14 +103,15 @@ def _part(key: str, part: Value, scope: Scope) -> list[Is | AnyOf]:
     if key == "any":
         return [AnyOf(tuple(condition(one, scope) for one in part.elements()))]
     if key == "not":
-        return [_negated(condition(part, scope))]
+        return [negated(condition(part, scope))]
     if key.startswith(_GIVEN):
         return [*test_of_given(part, key.removeprefix(_GIVEN), scope)]
     subject = subject_of(part, key, scope)
     return [] if subject is None else [test_of(part, subject, scope)]
 
 
-def _negated(found: Condition) -> Is | AnyOf:
+def negated(found: Condition) -> Is | AnyOf:
+    """The test that a condition does not hold."""
     if len(found.tests) == 1:
         return found.tests[0]._replace(negated=not found.tests[0].negated)
     return AnyOf((found,), negated=True)

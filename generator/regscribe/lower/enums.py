@@ -5,29 +5,37 @@ from dataclasses import replace
 
 from regscribe.lower.labels import id_of, identifier_of, label_of
 from regscribe.lower.node import Keyed, Value
-from regscribe.lower.rules import BAD_BITS, UNKNOWN_ENUM
+from regscribe.lower.rules import BAD_BITS, IDLE_KEY, UNKNOWN_ENUM
 from regscribe.lower.scope import Scope
 from regscribe.lower.texts import whole_ends
 from regscribe.lower.tree import TreeNode
-from regscribe.model import BitField, Condition, Enum, Member
+from regscribe.model import ALWAYS, BitField, Condition, Enum, Member
+
+MakeCondition = Callable[[Value | None, Scope], Condition]
+"""What makes a condition of a `when`; those who only ask which codes and bits there are need none."""
 
 COLUMNS, OTHER = "columns", "other"
 """The keys beside the codes of an enum: the columns of the manual's table, and the label of all other codes."""
 
 
-def enum_of(node: Value | None, scope: Scope, *, inline_id: str) -> Enum | None:
-    """The enum that `node` names or spells, None for no node; None with RS0304 where the name is unknown."""
+def enum_of(node: Value | None, scope: Scope, *, inline_id: str, when: MakeCondition | None = None) -> Enum | None:
+    """The enum that `node` names or spells, None for no node; None with RS0304 where the name is unknown.
+
+    Without `when`, which makes the conditions of members, all exist always.
+    """
     if node is None:
         return None
     if not node.is_text:
-        return enum_at(node, scope, inline_id)
+        return enum_at(node, scope, inline_id, when)
     table = scope.named(node, "enums", rule=UNKNOWN_ENUM, what="enum")
+    if table and when and any(each.child("when") for each in _codes(table)):
+        return scope.once(table.path, lambda: enum_at(table, scope, table.key, when))
     if table and table.key not in scope.enums:
         scope.enums[table.key] = enum_at(table, scope, table.key)
     return scope.enums[table.key] if table else None
 
 
-def enum_at(table: Value, scope: Scope, name: str) -> Enum:
+def enum_at(table: Value, scope: Scope, name: str, when: MakeCondition | None = None) -> Enum:
     """The enum whose members stand at `table`, as the model of the scope has it."""
     members = []
     invalid = []
@@ -37,7 +45,8 @@ def enum_at(table: Value, scope: Scope, name: str) -> Enum:
         if here and label:
             name_of_code = identifier_of(node, label).upper()
             description, cells = node.text_of("description"), node.texts_of("cells")
-            members.append(Member(node.key_whole(), label, name_of_code, description, cells))
+            exists = when(node.child("when"), scope) if when else ALWAYS
+            members.append(Member(node.key_whole(), label, name_of_code, description, cells, exists))
         elif node.child("invalid") and (here or label):
             invalid.append((node.key_whole(), node.text_of("invalid")))
     columns = table.texts_of(COLUMNS)
@@ -56,35 +65,46 @@ def _codes(table: Value) -> list[Value]:
     return [node for key, node in table.items() if key not in {COLUMNS, OTHER}]
 
 
-def code_anywhere(table: Value, text: str) -> int | None:
-    """The code of the member `text` in the enum at `table`, whichever models have it; None if there is none."""
-    found = (member for member in _codes(table) if label_of(member) and id_of(member).lower() == text.lower())
-    return next((member.key_whole() for member in found), None)
+def codes_named(tables: list[Value], text: str) -> dict[int, set[str]]:
+    """The codes of the member `text` in enums, whichever models have it, each with the ids that it has in all."""
+    ids: dict[int, set[str]] = {}
+    for table in tables:
+        for member in _codes(table):
+            if label_of(member):
+                ids.setdefault(member.key_whole(), set()).add(id_of(member).lower())
+    return {code: names for code, names in ids.items() if text.lower() in names}
 
 
-def enum_for(entry: TreeNode, scope: Scope, field: str = "") -> tuple[Value, Enum] | None:
-    """The enum of a register (or of one of its bit fields), with the place of its members; None if it has none."""
+def tables_of(entry: TreeNode, scope: Scope, field: str = "") -> list[Value]:
+    """The tables of the codes of a register (or of one of its bit fields), one for each case."""
     owner: Keyed | None = entry.settings
     if field:
         fields = entry.settings.child("fields")
         owner = fields.child(field) if fields else None
     node = owner.child("enum") if owner else None
-    enum = enum_of(node, scope, inline_id="")
-    if node is None or enum is None:
-        return None
-    table = scope.named(node, "enums", rule=UNKNOWN_ENUM, what="enum") if node.is_text else node
-    return (table, enum) if table else None
+    cases = [node] if node and not node.is_list else [case.child("is") for case in node.elements()] if node else []
+    found = [scope.named(one, "enums", rule=UNKNOWN_ENUM, what="enum") if one.is_text else one for one in cases if one]
+    return [table for table in found if table]
 
 
-def fields_of(
-    entry: TreeNode, scope: Scope, follow: Callable[[Value, Scope], Condition] | None = None
-) -> tuple[BitField, ...]:
-    """The flags or fields of a register that the model has; `follow` makes the conditions that they follow."""
+def fields_of(entry: TreeNode, scope: Scope, when: MakeCondition | None = None) -> tuple[BitField, ...]:
+    """The flags or fields of a register that the model has; `when` makes their conditions."""
     found = [(node, _flag(node)) for _, node in entry.settings.items_of("flags") if scope.has(node)]
     found += [(node, _field(node, scope, entry)) for _, node in entry.settings.items_of("fields") if scope.has(node)]
-    return tuple(
-        replace(field, follows=follow(when, scope)) if follow and (when := node.child("follows")) else field
-        for node, field in found
+    return tuple(_conditional(field, node, scope, when) if when else field for node, field in found)
+
+
+def _conditional(field: BitField, node: Value, scope: Scope, when: MakeCondition) -> BitField:
+    """A flag or field with the conditions under which it exists, and is set; RS0338 for those of its members."""
+    follows, enum = node.child("follows"), node.child("enum") if node.is_mapping else None
+    table = scope.named(enum, "enums", rule=UNKNOWN_ENUM, what="enum") if enum and enum.is_text else enum
+    if enum and table and (conditional := [each.key for each in _codes(table) if each.child("when")]):
+        message = f"code {conditional[0]} of the bit field `{field.id}` has `when`, which members of registers may have"
+        enum.report(IDLE_KEY, message, remedy="give the whole field a `when`, or remove it")
+    return replace(
+        field,
+        when=when(node.child("when"), scope),
+        follows=when(follows, scope) if follows else None,
     )
 
 

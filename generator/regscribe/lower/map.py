@@ -152,7 +152,7 @@ def _lower_tables(root: Value, scope: Scope) -> None:
     for _, node in _own(root, "conditions"):
         condition(node, scope)
     for name, node in _own(root, "enums"):
-        enum_at(node, scope, name)
+        enum_at(node, scope, name, condition)
     for _, node in _own(root, "views"):
         set_at(node, Space.HOLDING, Keys(), scope)
     for _, node in _own(root, "decimals"):

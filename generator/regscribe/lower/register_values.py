@@ -170,7 +170,7 @@ def named_value(node: Value, kind: Kind, enum: Enum | None, specials: tuple[Spec
     if not node.is_text:
         return node.number()
     text = node.text()
-    named = {member.id.lower(): Fraction(member.code) for member in (enum.members if enum else ())}
+    named = {name: Fraction(code) for name, code in (enum.codes if enum else {}).items()}
     named |= {special.id.lower(): special.value for special in specials}
     if text.lower() in named:
         return named[text.lower()]

@@ -5,7 +5,8 @@ from dataclasses import replace
 from fractions import Fraction
 
 from regscribe.lower.conditions import both, cases_of, condition, write_condition
-from regscribe.lower.enums import enum_of, fields_of
+from regscribe.lower.enum_cases import enum_by_case
+from regscribe.lower.enums import fields_of
 from regscribe.lower.field_numbers import with_numbers
 from regscribe.lower.idle_keys import report_idle_keys
 from regscribe.lower.matchers import given_named
@@ -56,7 +57,7 @@ def register_of(entry: TreeNode, everywhere: Scope) -> Register:
     scaling = scale_of(entry, views[0].type, scope)
     specials = specials_of(entry)
     kind = kind_of(entry, views, scaling, specials)
-    enum = enum_of(settings.get("enum"), scope, inline_id=entry.qualified_id)
+    enum = enum_by_case(settings.get("enum"), scope, entry.qualified_id)
     unit, unit_id = unit_of(settings.get("unit"), scope)
     default, defaults = beginnings_of(settings.get("default"), kind, enum, specials, scope)
     delivered, deliveries = beginnings_of(settings.get("delivered"), kind, enum, specials, scope)

@@ -48,6 +48,7 @@ NO_MARKER = "RS0363"
 IDLE_BLOCK = "RS0364"
 ENDLESS = "RS0365"
 NOT_PACKED = "RS0366"
+SEVERAL_CODES = "RS0367"
 UNKNOWN_ARGUMENT = "RS0345"
 NO_PART = "RS0340"
 BAD_LAYOUT = "RS0341"
@@ -123,6 +124,11 @@ RULES: tuple[Rule, ...] = (
         "Addresses can follow a count where it is read first: in a block, from a register outside all arrays.",
     ),
     Rule(IDLE_BLOCK, "Chain or block without use", "What no register stands in is never looked for."),
+    Rule(
+        SEVERAL_CODES,
+        "Name that depends on its case",
+        "A condition compares codes; where a code has another meaning in another case, it would hold there too.",
+    ),
     Rule(NO_PART, "Record of no file, or value of no queue", "Its address is the file's (or queue's) and its own."),
 )
 

@@ -3,10 +3,10 @@
 from dataclasses import dataclass
 from fractions import Fraction
 
-from regscribe.lower.enums import code_anywhere, enum_for, fields_of
+from regscribe.lower.enums import codes_named, enum_at, fields_of, tables_of
 from regscribe.lower.labels import id_of
 from regscribe.lower.node import ZERO, Value
-from regscribe.lower.rules import DIVIDED, UNKNOWN_FIELD, UNKNOWN_MEMBER
+from regscribe.lower.rules import DIVIDED, SEVERAL_CODES, UNKNOWN_FIELD, UNKNOWN_MEMBER
 from regscribe.lower.scope import Scope
 from regscribe.lower.texts import unknown
 from regscribe.lower.tree import TreeNode
@@ -60,14 +60,14 @@ def subject_at(node: Value | None, scope: Scope) -> str:
 def code_of_text(node: Value, subject: Subject, scope: Scope) -> Fraction:
     """The code of an enum member, or what a special value is, by its id; RS0305 where there is none."""
     text = node.text()
-    known: list[str] = []
-    found = enum_for(subject.entry, scope.at(subject.entry), subject.field)
-    if found is not None:
-        table, enum = found
-        code = code_anywhere(table, text)
-        if code is not None:
-            return Fraction(code)
-        known = [member.id.lower() for member in enum.members]
+    here = scope.at(subject.entry)
+    tables = tables_of(subject.entry, here, subject.field)
+    codes = codes_named(tables, text)
+    if codes:
+        if len(tables) > 1:
+            _one_meaning(node, subject, codes)
+        return Fraction(next(iter(codes)))
+    known = list(dict.fromkeys(member.id.lower() for table in tables for member in enum_at(table, here, "").members))
     settings = subject.entry.settings
     for _, special in settings.items_of("special"):
         name = id_of(special).lower()
@@ -84,3 +84,12 @@ def code_of_text(node: Value, subject: Subject, scope: Scope) -> Fraction:
     where = f"{subject.name}.{subject.field}".removesuffix(".")
     unknown(node, UNKNOWN_MEMBER, "member or special value", text, known, of=where)
     return ZERO
+
+
+def _one_meaning(node: Value, subject: Subject, codes: dict[int, set[str]]) -> None:
+    """Report a name of an enum by case that says no single code, or a code that is called otherwise in a case."""
+    names = {name for ids in codes.values() for name in ids}
+    if len(codes) > 1 or len(names) > 1:
+        means = "; ".join(f"{code} is {' or '.join(sorted(ids))}" for code, ids in sorted(codes.items()))
+        message = f"`{node.text()}` of `{subject.path}` depends on its case: {means}"
+        node.report(SEVERAL_CODES, message, remedy="write the code, and in a condition test what decides the case too")

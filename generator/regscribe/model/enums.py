@@ -4,7 +4,7 @@ from dataclasses import dataclass
 from fractions import Fraction
 
 from regscribe.model.diagnostic import NOWHERE, Span
-from regscribe_runtime.values.conditions import Cases, Condition
+from regscribe_runtime.values.conditions import ALWAYS, Cases, Condition
 from regscribe_runtime.values.scales import Sentinel
 
 
@@ -29,13 +29,17 @@ class Special:
 
 @dataclass(frozen=True, slots=True)
 class Member:
-    """One code of an enum; `id` is its Python name in capitals, `cells` what the enum's columns say of it."""
+    """One code of an enum; `id` is its Python name in capitals, `cells` what the enum's columns say of it.
+
+    It exists only while `when` holds.
+    """
 
     code: int
     label: str
     id: str
     description: str = ""
     cells: tuple[str, ...] = ()
+    when: Condition = ALWAYS
 
 
 @dataclass(frozen=True, slots=True)
@@ -44,7 +48,8 @@ class Enum:
 
     `id` is the map's name; models whose members differ have enums of the same id with different members.
     `columns` are the heads of the manual's table, where it says several things of each code; `other` is what it calls
-    all codes that it does not list.
+    all codes that it does not list. Where the codes mean other things in other `cases`, `members` are those of all
+    cases, each while its case is the first that holds.
     """
 
     id: str
@@ -54,6 +59,28 @@ class Enum:
     span: Span = NOWHERE
     columns: tuple[str, ...] = ()
     other: str = ""
+    cases: "Cases[Enum]" = ()
+
+    @property
+    def each(self) -> "tuple[Enum, ...]":
+        """The enums of its cases; itself where it has none."""
+        return tuple(dict.fromkeys(case.then for case in self.cases)) or (self,)
+
+    @property
+    def codes(self) -> dict[str, int]:
+        """The code of each id, in small letters, that has one code only."""
+        found: dict[str, set[int]] = {}
+        for member in self.members:
+            found.setdefault(member.id.lower(), set()).add(member.code)
+        return {name: min(codes) for name, codes in found.items() if len(codes) == 1}
+
+    @property
+    def labels(self) -> dict[int, str]:
+        """The label of each code, those of several cases joined."""
+        found: dict[int, dict[str, None]] = {}
+        for member in self.members:
+            found.setdefault(member.code, {})[member.label] = None
+        return {code: " / ".join(labels) for code, labels in found.items()}
 
 
 @dataclass(frozen=True, slots=True)
@@ -61,7 +88,7 @@ class BitField:
     """Bits `low` to `high` (0 is the least significant) of a word: one flag, a number or an enum.
 
     The number of a part is `multiply` times that in its bits (in two's complement if `signed`), and `add`; `range` is
-    what may be written, `sentinels` numbers in the bits that report faults.
+    what may be written, `sentinels` numbers in the bits that report faults. It exists only while `when` holds.
     `follows`: the device sets a flag where this holds, and clears it where not (None: it does neither by itself).
     """
 
@@ -78,6 +105,7 @@ class BitField:
     unit: str = ""
     range: tuple[Fraction, Fraction] | None = None
     sentinels: tuple[Sentinel, ...] = ()
+    when: Condition = ALWAYS
 
     @property
     def is_scaled(self) -> bool:

@@ -5,7 +5,7 @@ from fractions import Fraction
 
 from regscribe.model.diagnostic import NOWHERE, Span
 from regscribe.model.enums import BitField, Enum, Special
-from regscribe_runtime.values.conditions import ALWAYS, Cases, Condition, always
+from regscribe_runtime.values.conditions import ALWAYS, Case, Cases, Condition, always
 from regscribe_runtime.values.facts import PLAIN_READING, Governs, ReadFacts, WriteCondition
 from regscribe_runtime.values.kinds import Access, Kind
 from regscribe_runtime.values.octets import PLAIN_TEXT, TextForm
@@ -167,6 +167,18 @@ class Register:
     def is_fault(self, stored: object) -> bool:
         """Whether a stored number is a fault in any case."""
         return any(one.reports(stored) for one in self.sentinels)
+
+    @property
+    def partial(self) -> Cases[str]:
+        """What of its value exists only in a case: enums by their places, members behind these, flags, parts."""
+        found = []
+        if self.enum:
+            places = {one: place for place, one in enumerate(self.enum.each)}
+            found += [Case(case.when, str(places[case.then])) for case in self.enum.cases]
+            members = ((place, member) for one, place in places.items() for member in one.members)
+            found += [Case(one.when, f"{place}.{one.id}") for place, one in members if not one.when.always]
+        names = ((one.when, one.id.upper() if self.kind is Kind.FLAGS else one.id) for one in self.fields)
+        return (*found, *(Case(when, name) for when, name in names if not when.always))
 
     @property
     def fractional(self) -> bool:

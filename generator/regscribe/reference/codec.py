@@ -3,7 +3,7 @@
 from fractions import Fraction
 from math import floor
 
-from regscribe.model.enums import BitField, Special
+from regscribe.model.enums import BitField, Member, Special
 from regscribe.model.register import Register
 from regscribe.reference.ieee import ieee_bits
 from regscribe.reference.limits import in_range, is_valid
@@ -59,6 +59,7 @@ def _of_number(register: Register, view: View, number: Fraction | NotANumber | N
     if not isinstance(number, Fraction):
         return NOT_DECODABLE
     if register.kind in PATTERNS:
+        missing_bits(register, known)  # what decides which of its bits have a meaning must be known
         return Reading(Meaning.VALUE, number % (1 << view.type.bits))
     return _meaning(register, view, number, known)
 
@@ -123,7 +124,7 @@ def _meaning(register: Register, view: View, number: Fraction, known: Known) -> 
         if carried(view, line.stored(named) * view.factor) == number:
             return Reading(Meaning.VALUE, named if special.means is None else special.means)
     value = line.value(number / view.factor)
-    reading = _of_kind(register, value)
+    reading = _of_kind(register, value, known)
     if reading is NOT_DECODABLE or not register.valid:
         return reading
     try:
@@ -132,7 +133,22 @@ def _meaning(register: Register, view: View, number: Fraction, known: Known) -> 
         return NOT_DECODABLE
 
 
-def _of_kind(register: Register, value: Fraction) -> Reading:
+def existing_members(register: Register, known: Known) -> tuple[Member, ...]:
+    """Return the members of a register's enum that exist as things stand."""
+    return tuple(member for member in register.enum.members if holds(member.when, known)) if register.enum else ()
+
+
+def missing_bits(register: Register, known: Known) -> int:
+    """Return the bits of flags and parts that do not exist as things stand."""
+    gone = [field for field in register.fields if not holds(field.when, known)]
+    return sum((2**field.width - 1) * 2**field.low for field in gone)
+
+
+def _is_member(register: Register, value: Fraction, known: Known) -> bool:
+    return register.enum is None or any(member.code == value for member in existing_members(register, known))
+
+
+def _of_kind(register: Register, value: Fraction, known: Known) -> Reading:
     if register.kind is Kind.VERSION:
         text = version_text(register, value)
         return NOT_DECODABLE if text is None else Reading(Meaning.VALUE, text)
@@ -143,7 +159,7 @@ def _of_kind(register: Register, value: Fraction) -> Reading:
         return NOT_DECODABLE if beyond else Reading(Meaning.VALUE, value)
     if value.denominator != 1:
         return NOT_DECODABLE
-    if register.enum is not None and all(member.code != value for member in register.enum.members):
+    if not _is_member(register, value, known):
         return Reading(Meaning.UNKNOWN_MEMBER, value)
     return Reading(Meaning.VALUE, value)
 
@@ -220,19 +236,21 @@ def _checked(register: Register, value: Fraction, known: Known) -> Fraction:
     code = _special_code(register, value, known)
     if code is not None:
         return code
-    _check_kind(register, value)
+    _check_kind(register, value, known)
     if not in_range(register, value, known) or not is_valid(register, value, known):
         raise RefusedError(RefusalReason.RANGE, f"{show(value)} lies outside the range")
     return value
 
 
-def _check_kind(register: Register, value: Fraction) -> None:
+def _check_kind(register: Register, value: Fraction, known: Known) -> None:
     if register.kind is Kind.BOOLEAN and value not in {0, 1}:
         raise RefusedError(RefusalReason.TYPE, f"{show(value)} is neither 0 nor 1")
-    if register.enum is not None and all(member.code != value for member in register.enum.members):
-        raise RefusedError(RefusalReason.MEMBER, f"{show(value)} is no member of {register.enum.id}")
+    if not _is_member(register, value, known):
+        raise RefusedError(RefusalReason.MEMBER, f"{show(value)} is no member of {register.enum and register.enum.id}")
     if register.kind is Kind.FLAGS and value != int(value) & register.named_bits:
         raise RefusedError(RefusalReason.BITS, f"{show(value)} sets bits that mean nothing")
+    if register.fields and value.denominator == 1 and int(value) & missing_bits(register, known):
+        raise RefusedError(RefusalReason.BITS, f"{show(value)} sets bits of what does not exist")
     if not register.fractional and value.denominator != 1:
         raise RefusedError(RefusalReason.TYPE, f"{show(value)} is no whole number")
 

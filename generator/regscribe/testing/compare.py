@@ -5,7 +5,16 @@ from fractions import Fraction
 from typing import Any
 
 from regscribe.testing.vectors import Json, Trial, number
-from regscribe_runtime import Flags, NotDecodable, OutOfRange, Saturated, SensorFault, ValueNotDecodable, ValueRefused
+from regscribe_runtime import (
+    Flags,
+    NotDecodable,
+    OutOfRange,
+    Saturated,
+    SensorFault,
+    ValueNotDecodable,
+    ValueRefused,
+    Word,
+)
 from regscribe_runtime.registers.octets import OctetType
 from regscribe_runtime.registers.register import Register
 
@@ -72,6 +81,8 @@ def _value(where: str, trial: Trial, found: Any, vector: Json, expected: object)
             yield from differs(where, name, value, part)
     for name, fault in vector.get("part_faults", {}).items():
         yield from differs(where, name, _fault_of(found, name), fault)
+    if isinstance(found, Word):
+        yield from differs(where, "absent", sorted(found.absent), sorted(vector.get("absent", ())))
 
 
 def _fault_of(found: object, name: str) -> str:

@@ -60,8 +60,9 @@ class DriverUnderTest:
             tried: list[tuple[object, ...]] = []
             paths = (place["path"] for place in entry["registers"] if self.model in place["models"])
             for register in filter(None, map(self._register, paths)):
-                scaling = (register.scale, register.special_scale, register.range, register.valid, register.sentinels)
-                declared = (register.views, id(register.value_type), register.access, *scaling)
+                scaling = (register.scale, register.special_scale, register.range, register.valid)
+                named = (register.sentinels, register.partial)
+                declared = (register.views, id(register.value_type), register.access, *scaling, *named)
                 if declared not in tried:
                     tried.append(declared)
                     yield from (Trial(register, entry, case, *known(case)) for case in entry["cases"])

@@ -17,8 +17,10 @@ from regscribe.testing.driver_checks import DriverUnderTest
 from regscribe.testing.simulated_read import wrong_requests, wrong_values
 from regscribe.testing.vectors import Json, Trial, number
 from regscribe_runtime import ValueNotDecodable, ValueRefused
+from regscribe_runtime.registers.codec import present_type
 from regscribe_runtime.registers.octets import OctetType
 from regscribe_runtime.registers.register import Register
+from regscribe_runtime.registers.value_types import FlagsType, WordType
 
 each_run = settings(max_examples=40, deadline=None, derandomize=True, database=None)
 """How often each property is tried for each model."""
@@ -134,10 +136,12 @@ def values(trial: Trial) -> st.SearchStrategy[Any]:
     if kind == "boolean":
         return st.sampled_from((0, 1))
     if kind == "flags":
-        bits = [1 << bit for field in entry["fields"] for bit in range(field["low"], field["high"] + 1)]
+        named = [1 << bit for field in entry["fields"] for bit in range(field["low"], field["high"] + 1)]
+        bits = [bit for bit in named if not bit & _absent(trial)]
         return (st.sets(st.sampled_from(bits)).map(sum) if bits else st.just(0)).filter(_no_fault(trial))
     if kind == "fields":
-        return st.integers(0, 65536 ** _size(trial) - 1).filter(_no_fault(trial))
+        absent = _absent(trial)
+        return st.integers(0, 65536 ** _size(trial) - 1).map(lambda bits: bits & ~absent).filter(_no_fault(trial))
     if kind == "string":
         return st.text(st.characters(min_codepoint=33, max_codepoint=126), max_size=_room(trial)).filter(_taken(trial))
     if kind == "version" or isinstance(trial.register.value_type, OctetType):
@@ -171,6 +175,12 @@ def _no_fault(trial: Trial) -> Callable[[int], bool]:
     """Return what tells bits that can be written from those by which the device reports a fault."""
     faults = {int(fault["stored"]) % 65536 ** _size(trial) for fault in trial.entry.get("faults", ())}
     return lambda bits: bits not in faults
+
+
+def _absent(trial: Trial) -> int:
+    """Return the bits of flags and parts that do not exist in the situation of a trial."""
+    kind = present_type(trial.register, trial.state, trial.givens)
+    return kind.absent if isinstance(kind, FlagsType | WordType) else 0
 
 
 def _inside(trial: Trial, stretch: dict[str, Any]) -> st.SearchStrategy[Any]:

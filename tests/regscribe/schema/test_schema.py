@@ -147,7 +147,11 @@ def test_an_unknown_key_asks_whether_another_was_meant(keys: str, advice: str) -
         ("byte_order: BADC", "RS0204 6:14", "write `byte_order: little`, and no `word_order`"),
         ("scale: 0.1", "RS0203 6:9", "write `multiply: 0.1`"),
         ("scale: 10", "RS0203 6:9", "write `multiply: 10`"),
-        ("enum: [{when: a, is: b}]", "RS0203 6:8", "write two registers at one address, each with its `enum` and"),
+        (
+            "fields: {a: {bits: 0..3, enum: [{when: a, is: b}]}}",
+            "RS0203 6:33",
+            "write a register for each case, with its own `fields` and",
+        ),
         ("access: read-only", "RS0204 6:10", "write `r`"),
         ("range: 5", "RS0203 6:9", "write `0..5`, or `5..5` for one value"),
         ("range: [0, 2..5]", "RS0203 6:10", "write `0..0` for one value"),

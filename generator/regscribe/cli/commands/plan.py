@@ -103,9 +103,9 @@ def _held(subject: PlannedModel, text: str) -> tuple[str, Fraction]:
     register = subject.registers.get(path)
     if not equals or register is None:
         refuse(f"--with {text}: write NAME=VALUE, NAME being a register of {subject.model.name}")
-    members = {member.id.lower(): Fraction(member.code) for member in register.enum.members} if register.enum else {}
+    members = register.enum.codes if register.enum else {}
     if value.lower() in members:
-        return path, members[value.lower()]
+        return path, Fraction(members[value.lower()])
     with raised_as(click.UsageError, ValueError):
         return path, parse(value)
 

@@ -107,6 +107,7 @@ def _conditions(
         if register.writable:
             yield model, register.writable.when
         yield model, register.when
+        yield from ((model, case.when) for case in register.partial)
         yield from ((model, sentinel.when) for sentinel in register.sentinels)
         yield from ((model, case.when) for case in register.follows)
         yield from ((model, field.follows) for field in register.fields if field.follows is not None)

@@ -1,6 +1,6 @@
 """The tables below a register's facts: views, scale and range by condition, values, bits, addresses of elements."""
 
-from collections.abc import Callable, Iterable
+from collections.abc import Iterable, Iterator
 from operator import attrgetter
 
 from regscribe.emit.common_values import Merged, Stated, models_by
@@ -9,8 +9,16 @@ from regscribe.emit.markdown.escape import Md, code, escape, md, prose
 from regscribe.emit.markdown.page_values import Titled, table
 from regscribe.emit.markdown.register_facts import transmission, view_type
 from regscribe.emit.outline import Leaf, formula
-from regscribe.emit.words import bits_words, conversion_words, one_line, part_words, range_words, when_words
-from regscribe.model import Enum, Kind, Model, Register, View
+from regscribe.emit.words import (
+    Wording,
+    bits_words,
+    conversion_words,
+    one_line,
+    part_words,
+    range_words,
+    when_words,
+)
+from regscribe.model import Condition, Enum, Kind, Model, Register, View
 
 Rows = tuple[tuple[Md, ...], ...]
 
@@ -74,53 +82,73 @@ def _condition_rows(context: PageContext, model: Model, register: Register) -> d
     return {"Scale": scales, "Range": ranges}
 
 
-def values(leaf: Leaf) -> tuple[Titled, ...]:
-    """Return the members of a register's enum and the codes that the manual calls invalid."""
-    enums = [register.enum for _, register in leaf.register.versions if register.enum]
-    columns = max((enum.columns for enum in enums), key=len, default=())
-    rows = _by_model(leaf.register, lambda register: _enum_rows(register.enum, len(columns)))
+def values(context: PageContext, leaf: Leaf) -> tuple[Titled, ...]:
+    """Return the members of a register's enum and the codes that the manual calls invalid, a table for each case."""
+    versions = leaf.register.versions
+    columns = max((one.columns for _, each in versions if each.enum for one in each.enum.each), key=len, default=())
+    rows: dict[str, list[tuple[str, tuple[Md, ...]]]] = {}
+    for model, register in versions:
+        for title, enum in _enums(register.enum, context.wording(model)):
+            found = _enum_rows(enum, len(columns), context.wording(model))
+            rows.setdefault(title, []).extend((model.name, row) for row in found)
     heads = (one_line(column).replace("_", " ") for column in columns)
-    headers = ("Code", "Meaning", "In Python", *heads, "Remark", "Models")
-    found = table(headers, sorted(rows, key=lambda row: int(row[0])))
-    return (Titled("Values", found),) if found.rows else ()
+    headers = ("Code", "Meaning", "In Python", *heads, "Exists while", "Remark", "Models")
+    tables = (
+        Titled(title, table(headers, sorted(_once(pairs, len(versions)), key=lambda row: int(row[0]))))
+        for title, pairs in rows.items()
+    )
+    return tuple(one for one in tables if one.table.rows)
 
 
-def _enum_rows(enum: Enum | None, columns: int) -> Rows:
+def _enums(enum: Enum | None, wording: Wording) -> Iterator[tuple[str, Enum]]:
+    """Yield the enum of each case with the title of its table."""
+    if enum and enum.cases:
+        yield from ((Md(f"Values: {when_words(case.when, wording)}"), case.then) for case in enum.cases)
+    elif enum:
+        yield "Values", enum
+
+
+def _enum_rows(enum: Enum, columns: int, wording: Wording) -> Rows:
     """A label that only repeats the cells is left out: they stand beside it."""
     rows: list[tuple[Md, ...]] = []
-    for member in enum.members if enum else ():
+    for member in enum.members:
         cells = [escape(one_line(cell)) for cell in member.cells] + [Md()] * columns
         label = "" if member.label == ", ".join(member.cells) else one_line(member.label)
-        number = escape(str(member.code))
-        rows.append((number, escape(label), code(member.id), *cells[:columns], prose(member.description)))
-    for invalid, why in enum.invalid if enum else ():
-        rows.append((escape(str(invalid)), md("invalid"), Md(), *[Md()] * columns, prose(why)))
+        number, while_ = escape(str(member.code)), _existence(member.when, wording)
+        rows.append((number, escape(label), code(member.id), *cells[:columns], while_, prose(member.description)))
+    for invalid, why in enum.invalid:
+        rows.append((escape(str(invalid)), md("invalid"), Md(), *[Md()] * columns, Md(), prose(why)))
     return tuple(rows)
 
 
-def bits(leaf: Leaf) -> tuple[Titled, ...]:
+def _existence(when: Condition, wording: Wording) -> Md:
+    return Md() if when.always else Md(wording.condition(when))
+
+
+def bits(context: PageContext, leaf: Leaf) -> tuple[Titled, ...]:
     """Return the bits and fields of a register's word."""
-    headers = ("Bits", "Meaning", "In Python", "Values", "Remark", "Models")
-    rows = _by_model(leaf.register, _bit_rows)
+    headers = ("Bits", "Meaning", "In Python", "Values", "Exists while", "Remark", "Models")
+    versions = leaf.register.versions
+    pairs = [(model.name, row) for model, one in versions for row in _bit_rows(one, context.wording(model))]
+    rows = _once(pairs, len(versions))
     found = table(headers, sorted(rows, key=lambda row: int(row[0].partition("..")[0])))
     return (Titled("Bits (0 is the least significant)", found),) if found.rows else ()
 
 
-def _bit_rows(register: Register) -> Rows:
+def _bit_rows(register: Register, wording: Wording) -> Rows:
     rows: list[tuple[Md, ...]] = []
     for field in register.fields:
         name = field.id.upper() if register.kind is Kind.FLAGS else field.id  # a flag is an enum's member
         members = field.enum.members if field.enum else ()
         codes = ", ".join(f"{member.code} = {one_line(member.label)}" for member in members) or part_words(field)
-        label = escape(one_line(field.label))
-        rows.append((escape(bits_words(field)), label, code(name), escape(codes), prose(field.description)))
+        said = (escape(bits_words(field)), escape(one_line(field.label)), code(name), escape(codes))
+        rows.append((*said, _existence(field.when, wording), prose(field.description)))
     return tuple(rows)
 
 
-def _by_model(shared: Merged[Register], rows: Callable[[Register], Rows]) -> list[tuple[Md, ...]]:
-    """Return the rows of all models, each once, with the models that have it where not all have."""
-    found = models_by((model.name, row) for model, register in shared.versions for row in rows(register))
-    every = len(shared.versions)
+def _once(pairs: Iterable[tuple[str, tuple[Md, ...]]], every: int) -> list[tuple[Md, ...]]:
+    """Return the rows of models, each once, with the models that have it where not all have."""
+    found = models_by(pairs)
     return [(*row, escape(", ".join(names)) if len(names) < every else Md()) for row, names in found.items()]
 
 

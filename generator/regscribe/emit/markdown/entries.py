@@ -82,6 +82,7 @@ def _register(context: PageContext, leaf: Leaf, shown: dict[PageTable, Leaf], ma
     shared = leaf.register
     first = shared.first
     known, reference = _values(context, leaf, shown)
+    cases = (*views(context, leaf), *by_condition(context, leaf))
     return RegisterEntry(
         marks=Md(marks),
         anchor=context.anchor("register", shared.key),
@@ -95,7 +96,7 @@ def _register(context: PageContext, leaf: Leaf, shown: dict[PageTable, Leaf], ma
         danger=_paragraphs(by_model(shared, lambda _, item: prose(item.danger))),
         pictures=bit_fields(context, leaf),
         facts=facts(context, leaf),
-        tables=(*views(context, leaf), *by_condition(context, leaf), *known, *bits(leaf), *elements(context, leaf)),
+        tables=(*cases, *known, *bits(context, leaf), *elements(context, leaf)),
         remarks=conclusions(item for _, version in shared.versions for item in version.inferred),
     )
 
@@ -123,8 +124,8 @@ def _symbol(register: Register) -> str:
 
 def _values(context: PageContext, leaf: Leaf, shown: dict[PageTable, Leaf]) -> tuple[tuple[Titled, ...], Md]:
     """Return the table of values, or where a long one was shown before."""
-    found = values(leaf)
-    if not found or len(found[0].table.rows) <= LONG:
+    found = values(context, leaf)
+    if len(found) != 1 or len(found[0].table.rows) <= LONG:
         return found, Md()
     earlier = shown.setdefault(found[0].table, leaf)
     if earlier is leaf:

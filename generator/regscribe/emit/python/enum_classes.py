@@ -64,7 +64,7 @@ class NamedClasses:
 
     def _collect(self, register: Register, model: str) -> None:
         """Note the classes that a register of a model needs, but for that of a word of bit fields."""
-        for enum in (register.enum, *(part.enum for part in register.fields)):
+        for enum in (*(register.enum.each if register.enum else ()), *(part.enum for part in register.fields)):
             if enum:
                 self._enum(enum, model, _about(register))
         if register.kind is Kind.FLAGS:

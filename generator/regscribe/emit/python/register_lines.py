@@ -47,6 +47,7 @@ class Declarations:
             unit=specs.unit(register),
             section=_text(register.section),
             sentinels=specs.shared(register, "sentinels", register.sentinels),
+            partial=specs.shared(register, "partial", register.partial),
             aliases=group([str(alias) for alias in register.aliases]) if register.aliases else None,
             writable=specs.shared(register, "writable", register.writable),
             when=None if register.when.always else specs.shared(register, "when", register.when),
@@ -65,7 +66,7 @@ class Declarations:
     def _kind(self, register: Register) -> Expression:
         helper = self.specs.pool.helper
         if named := self._named(register):
-            return f"{helper(NAMED[register.kind])}({named})"
+            return f"{helper(NAMED[register.kind])}({', '.join(named)})"
         match register.kind:
             case kind if kind in OCTETS:
                 return self._octets(register)
@@ -84,19 +85,19 @@ class Declarations:
             return call(helper("text_as"), expression(register.text))
         return helper(OCTET_TYPES.get(register.base.type, register.base.type))
 
-    def _named(self, register: Register) -> str:
-        """The class of the values, if they have one of their own."""
+    def _named(self, register: Register) -> list[str]:
+        """The classes of the values, if they have some of their own: several of an enum by case."""
         if register.kind is Kind.ENUM and register.enum:
-            return self.named.name(register.enum.id, enum_content(register.enum))
+            return [self.named.name(enum.id, enum_content(enum)) for enum in register.enum.each]
         if register.kind in {Kind.FLAGS, Kind.FIELDS}:
-            return self.named.name(register.id, word_content(register))
-        return ""
+            return [self.named.name(register.id, word_content(register))]
+        return []
 
     def class_of(self, register: Register) -> str:
-        """The class of a register's values, if they have one of their own; with special values, that or a number."""
+        """The type of a register's values, if they have one of their own; with special values, that or a number."""
         if specials(register) and register.kind in {Kind.NUMBER, Kind.INTEGER}:
             return f"{TYPES[register.kind]} | {self.named.name(f'{register.id}_special', special_content(register))}"
-        return self._named(register)
+        return " | ".join(self._named(register))
 
     def _numeric(self, register: Register) -> Expression:
         helper = self.specs.pool.helper

@@ -17,6 +17,8 @@ from regscribe.reference import (
     Surroundings,
     decode,
     encode,
+    existing_members,
+    holds,
     part_value,
     present_view,
     special_value,
@@ -84,22 +86,23 @@ def _outcome(register: Register, reading: Reading, known: Surroundings) -> Json:
 
 def _named(register: Register, value: Fraction, known: Surroundings) -> Json:
     if register.enum is not None:
-        return {"member": next(member.id for member in register.enum.members if member.code == value)}
+        return {"member": next(one.id for one in existing_members(register, known) if one.code == value)}
     for special in register.specials:
         if special.means is None and special_value(register, special, known) == value:
             return {"special": special.id}
-    return _parts(register, int(value))
+    return _parts(register, int(value), known)
 
 
-def _parts(register: Register, value: int) -> Json:
-    parts = {bits.id: part_value(bits, value) for bits in register.fields}
+def _parts(register: Register, value: int, known: Surroundings) -> Json:
     if register.kind is Kind.FLAGS:
-        return {"flags": [name for name, part in parts.items() if part == 1]}
+        return {"flags": [bits.id for bits in register.fields if part_value(bits, value) == 1]}
     if register.kind is not Kind.FIELDS:
         return {}
+    parts = {bits.id: part_value(bits, value) for bits in register.fields if holds(bits.when, known)}
+    absent = [bits.id for bits in register.fields if bits.id not in parts]
     faults = {name: part.id for name, part in parts.items() if isinstance(part, Sentinel)}
     numbers = {name: show(part) for name, part in parts.items() if isinstance(part, Fraction)}
-    return {"fields": numbers} | ({"part_faults": faults} if faults else {})
+    return {"fields": numbers} | ({"part_faults": faults} if faults else {}) | ({"absent": absent} if absent else {})
 
 
 def _writes(register: Register, view: View, scale: Scale | None, situation: Situation) -> Json:

@@ -8,7 +8,7 @@ from typing import Any
 from regscribe.emit.vectors.candidates import PATTERNS_OF_BITS, Proposal, codes, with_neighbours
 from regscribe.emit.vectors.scale import LARGEST, Scale, range_now
 from regscribe.model import Kind, Register, View, WireType, show
-from regscribe.reference import Surroundings, present_sentinels, special_value
+from regscribe.reference import Surroundings, existing_members, present_sentinels, special_value
 from regscribe_runtime.values.kinds import OCTETS
 
 Json = dict[str, Any]
@@ -111,7 +111,7 @@ def rounded(scale: Scale) -> Iterator[Proposal]:
 def domain(register: Register, view: View, scale: Scale | None, known: Surroundings) -> Iterator[Json]:
     """Yield the codes of an enum, or each interval of numbers that are the same when written and read back."""
     if register.enum is not None:
-        yield from ({"low": str(member.code), "high": str(member.code)} for member in register.enum.members)
+        yield from ({"low": str(one.code), "high": str(one.code)} for one in existing_members(register, known))
     elif scale is not None and register.kind not in CODED | TEXTS and _may_be_written(register, known):
         line = _line(scale, view)
         holes = _holes(register, scale, known)

@@ -13,12 +13,13 @@ LOW_STORED, HIGH_STORED = Fraction(100), Fraction(1500)
 
 
 class CasesNow(NamedTuple):
-    """Indices of the cases that hold, and the numbers in them: equal ones behave the same."""
+    """Indices of the cases that hold, what exists, and the numbers in the cases: equal ones behave the same."""
 
     scale: int
     range: int
     valid: int
     faults: int
+    partial: tuple[bool, ...]
     numbers: tuple[object, ...]
 
 
@@ -30,6 +31,7 @@ def cases_of(register: Register, known: Surroundings) -> CasesNow:
         _index(ranges, known),
         _index(register.valid, known),
         _index(fault_cases(register), known),
+        tuple(holds(case.when, known) for case in register.partial),
         _numbers(register, known),
     )
 

@@ -73,7 +73,7 @@ class Finder:
         tried = tried_values(self._map, model, dependencies_of(register, view))
         asked = tuple(tried.values.items()), tuple(tried.givens.items()), tuple(tried.parts.items())
         ranges = register.range if register.access.writable else ()
-        cases = (register.scale, register.special_scale, ranges, register.valid, register.sentinels)
+        cases = (register.scale, register.special_scale, ranges, register.valid, register.sentinels, register.partial)
         key = (register.when, *cases, register.kind, view.order, view.byte_order, view.times, view.words, asked)
         if key not in self._known:
             self._known[key] = _situations(tried, register, view)
@@ -88,7 +88,7 @@ def _situations(tried: TriedValues, register: Register, view: View) -> tuple[Sit
         if not holds(register.when, known):
             continue
         cases = cases_of(register, known)
-        meanings[situation] = cases.numbers
+        meanings[situation] = (cases.partial, cases.numbers)
         first.setdefault((cases, present_view(view, known)), situation)
         first.setdefault(word_order(view, known), situation)
     full = list(dict.fromkeys(first.values()))

@@ -76,6 +76,7 @@ def dependencies_of(register: Register, view: View) -> Dependencies:
     conditions = [register.when] if not register.when.always else []
     conditions += [case.when for case in (*register.scale, *register.special_scale)]
     conditions += [sentinel.when for sentinel in register.sentinels]
+    conditions += [case.when for case in register.partial]
     decimals = [case.then.decimals for case in (*register.scale, *register.special_scale)]
     terms = [term for case in register.scale for term in (case.then.multiply, case.then.add)]
     ranges = (*register.valid, *(register.range if register.access.writable else ()))

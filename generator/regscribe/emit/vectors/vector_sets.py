@@ -11,6 +11,7 @@ from regscribe.emit.vectors.situations import Finder, Situation, existence_situa
 from regscribe.emit.words import condition_words, term_words
 from regscribe.model import (
     PLAIN_READING,
+    Condition,
     Enum,
     Order,
     OrderCases,
@@ -178,10 +179,19 @@ def _names(register: Register) -> Json:
         found["fields"] = [
             {"id": bits.id, "label": bits.label, "low": bits.low, "high": bits.high}
             | ({"members": _members(bits.enum)} if bits.enum else {})
+            | _condition(bits.when)
             for bits in register.fields
         ]
     return found
 
 
 def _members(enum: Enum) -> list[Json]:
-    return [{"code": member.code, "id": member.id, "label": member.label} for member in enum.members]
+    return [
+        {"code": member.code, "id": member.id, "label": member.label} | _condition(member.when)
+        for member in enum.members
+    ]
+
+
+def _condition(when: Condition) -> Json:
+    """Return the condition under which something of a value exists; nothing where it always does."""
+    return {} if when.always else {"when": condition_words(when)}

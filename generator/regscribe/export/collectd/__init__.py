@@ -120,9 +120,9 @@ def _register_value(model: Model, text: str) -> tuple[str, Fraction]:
     if not equals or register is None:
         message = f"--with {text}: write PATH=VALUE, PATH being a register of {model.name}"
         raise OptionError(message)
-    members = {member.id: Fraction(member.code) for member in register.enum.members} if register.enum else {}
+    members = {name.upper(): code for name, code in register.enum.codes.items()} if register.enum else {}
     if value.upper() in members:
-        return path, members[value.upper()]
+        return path, Fraction(members[value.upper()])
     if not NUMBER.fullmatch(value):
         known = f"a number or one of {', '.join(members)}" if members else "a number"
         message = f"--with {text}: the value of `{path}` is {known}"

@@ -3,7 +3,7 @@
 from fractions import Fraction
 
 from regscribe.model import BOTTOM, Identity, Is, Register
-from regscribe.reference import number_of
+from regscribe.reference import existing_members, number_of
 from regscribe.simulate.device.present_meaning import PresentMeaning
 from regscribe.simulate.device.value_arguments import with_field
 from regscribe_runtime.values.kinds import OCTETS
@@ -35,7 +35,7 @@ def _first_accepted(register: Register, state: PresentMeaning) -> Fraction:
     if state.accepts(register, Fraction(0)):
         return Fraction(0)
     if register.enum is not None and register.enum.members:
-        return Fraction(register.enum.members[0].code)
+        return Fraction((existing_members(register, state) or register.enum.members)[0].code)
     lows = [low for low, _ in (*(state.limits(register) or ()), *state.valid(register)) if low is not None]
     return next((low for low in lows if state.accepts(register, low)), (lows or [Fraction(0)])[0])
 

@@ -6,7 +6,7 @@ from difflib import get_close_matches
 from fractions import Fraction
 
 from regscribe.model import BitField, Enum, Kind, Register, Sentinel, parse, show
-from regscribe.reference import choose, part_bits, part_value
+from regscribe.reference import choose, existing_members, part_bits, part_value
 from regscribe.reference.codec import PATTERNS
 from regscribe.simulate.device.device_plan import Stored
 from regscribe.simulate.device.state import DeviceState
@@ -75,7 +75,7 @@ def _bounded(register: Register, plain: str | float | Decimal) -> str | int | fl
 
 def _named(state: DeviceState, register: Register, value: Fraction) -> str | int | float:
     """The name of a value, else the number as YAML has it: whole, or with enough digits to be unique."""
-    names = _ids(register.enum) | {
+    names = {Fraction(each.code): each.id for each in existing_members(register, state)} | {
         state.special(register, each): each.id for each in register.specials if each.means is None
     }
     if value in names:

@@ -24,6 +24,7 @@ from regscribe.reference import (
     Straight,
     choose,
     divided_limits,
+    existing_members,
     is_valid,
     part_value,
     present_view,
@@ -178,7 +179,7 @@ class PresentMeaning(ABC):
         """
         if register.kind is Kind.BOOLEAN and value not in (0, 1):
             return False
-        if not _is_member(register.enum, value):
+        if register.enum and all(member.code != value for member in existing_members(register, self)):
             return False
         if not all(_is_member(field.enum, field_value(value, field)) for field in register.fields if field.enum):
             return False

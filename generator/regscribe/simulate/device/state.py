@@ -9,7 +9,15 @@ from types import MappingProxyType
 
 from regscribe.model import NAN, BitField, CommandStep, Kind, Model, NotANumber, Register, RegisterMap, Space, parse
 from regscribe.model.located import arrays_in, layout_of, located
-from regscribe.reference import Surroundings, holds, part_bits, part_value, present_sentinels, version_text
+from regscribe.reference import (
+    Surroundings,
+    existing_members,
+    holds,
+    part_bits,
+    part_value,
+    present_sentinels,
+    version_text,
+)
 from regscribe.simulate.device import codec, octets
 from regscribe.simulate.device.device_plan import AddressSpan, Blueprint, Image, Stored, draw
 from regscribe.simulate.device.existence import exists
@@ -349,8 +357,9 @@ class DeviceState(PresentMeaning):
                 return named
             if register.kind is Kind.VERSION:
                 return parse(value.replace(".", ""))
-        specials = {each.id: self.special(register, each) for each in register.specials}
-        return self.from_value(register, number_of(register, None, value, specials))
+        names = {each.id: self.special(register, each) for each in register.specials}
+        names |= {each.id: Fraction(each.code) for each in existing_members(register, self)}
+        return self.from_value(register, number_of(register, None, value, names))
 
     def _show(self, register: Register, image: Image) -> None:
         if not register.access.readable:

@@ -71,29 +71,31 @@ def with_field(word: Fraction, field: BitField, value: Fraction) -> Fraction:
 
 
 def codes_of(enum: Enum | None) -> dict[str, Fraction]:
-    """Return the codes of the members of an enum by their ids in small letters."""
-    return {each.id.lower(): Fraction(each.code) for each in enum.members} if enum else {}
+    """Return the codes of the members of an enum by their ids in small letters, of those that have one code."""
+    return {name: Fraction(code) for name, code in enum.codes.items()} if enum else {}
 
 
 def number_of(
-    register: Register, field: BitField | None, value: Plain, specials: Mapping[str, Fraction] = MappingProxyType({})
+    register: Register, field: BitField | None, value: Plain, names: Mapping[str, Fraction] = MappingProxyType({})
 ) -> Fraction:
     """Return the number that `value` is or names: an enum member or a special value by its id, else decimals.
 
-    `specials` are the special values as values of use, by id. The number that one stands for counts as the special
-    value. Raises SimulatorError if `value` is neither.
+    `names` are the special values as values of use, and the members that exist now, by id. The number that a special
+    value stands for counts as the special value. Raises SimulatorError if `value` is neither.
     """
     if isinstance(value, str):
-        names = codes_of(field.enum if field else register.enum)
-        names |= {name.lower(): number for name, number in specials.items()}
-        if value.lower() in names:
-            return names[value.lower()]
+        known = codes_of(field.enum if field else register.enum)
+        known |= {name.lower(): number for name, number in names.items()}
+        by_case = register.enum is not None and register.enum.cases and not value[:1].isdigit()
+        name = (value.rpartition(".")[2] if by_case else value).lower()  # backups say of which enum a member is
+        if name in known:
+            return known[name]
     try:
         number = parse(value) if isinstance(value, str) else exact(value)  # type: ignore[arg-type] # refuses NAN
     except ValueError:
         message = f"{value!r} is no value of {register.path!r}: give a number or the id of a value"
         raise SimulatorError(message) from None
-    means = {each.means: specials[each.id] for each in register.specials if each.means is not None and specials}
+    means = {each.means: names[each.id] for each in register.specials if each.means is not None and names}
     return means.get(number, number)
 
 
@@ -132,7 +134,8 @@ def _used_givens(model: Model) -> Iterator[str]:
     yield from (test.given for when in whens for test in when.leaves if test.given)
     for register in model.registers:
         permission = (register.writable,) if register.writable else ()
-        for case in (*register.scale, *register.range, *register.valid, *register.sentinels, *permission):
+        named = (*register.sentinels, *register.partial)
+        for case in (*register.scale, *register.range, *register.valid, *named, *permission):
             yield from (test.given for test in case.when.leaves)
         for part in parts_of((register.scale, register.range, register.views)):
             yield from [part.given] if isinstance(part, GivenRef) else []

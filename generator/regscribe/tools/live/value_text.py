@@ -2,9 +2,8 @@
 
 import re
 import unicodedata
-from collections.abc import Sequence
+from collections.abc import Iterable, Sequence
 from decimal import Decimal
-from enum import Enum
 from typing import Any
 
 from regscribe.tools.live.errors import meant
@@ -13,6 +12,7 @@ from regscribe_runtime import (
     Choice,
     Field,
     Flags,
+    NotPresent,
     NumberField,
     Register,
     SensorFault,
@@ -22,6 +22,7 @@ from regscribe_runtime import (
 )
 from regscribe_runtime.registers.enums import unnamed_bits
 from regscribe_runtime.registers.octets import OctetType
+from regscribe_runtime.registers.value_types import ChoiceType, FlagsType, WordType
 
 Plain = str | int | float | bool | list[str]
 """A value without Python's types: numbers, members and special values by name, the names of set flags."""
@@ -39,7 +40,7 @@ _TRUE, _FALSE = frozenset({"true", "on", "yes", "1"}), frozenset({"false", "off"
 def show(register: Register[Any], value: Any) -> Plain:  # noqa: ANN401 - a value of any register
     """A value of use as `parse` takes it: a number, a text, a name, the names of set flags, `part=value` of fields."""
     if isinstance(value, (Choice, SpecialNumber)):
-        return str(value.name)
+        return _name(register, value)
     if isinstance(value, Flags):
         rest = unnamed_bits(value)
         unnamed = [f"bit_{bit}" for bit in range(rest.bit_length()) if rest >> bit & 1]
@@ -104,19 +105,33 @@ def choices(register: Register[Any]) -> tuple[str, ...]:
     if kind == "boolean":
         return ("false", "true")
     if kind in {"enum", "flags"}:
-        return tuple(member.name for member in _members_of(register))
+        return tuple(_name(register, member) for member in _members_of(register))
     if kind == "fields":
         return tuple(f"{name}=" for name in _members_of(register).parts)
     return tuple(member.name for member in register.value_type.special or ())
 
 
-def _members_of(register: Register[Any]) -> Any:  # noqa: ANN401 - an enum, flags or a word of fields
-    return type(register.value_type.make(0)) if register.kind == "fields" else register.value_type.make
+def _members_of(register: Register[Any]) -> Any:  # noqa: ANN401 - members of enums, flags or a word of fields
+    kind = register.value_type
+    return kind.members if isinstance(kind, ChoiceType | FlagsType | WordType) else ()
+
+
+def _name(register: Register[Any], member: Any) -> str:  # noqa: ANN401 - a member of an enum, a flag or a special value
+    """The name of a member, behind that of its enum where another enum of the register has one of this name."""
+    kind = register.value_type
+    several = isinstance(kind, ChoiceType) and [one.name for one in kind.members].count(member.name) > 1
+    return _qualified(member) if several else str(member.name)
+
+
+def _qualified(member: Any) -> str:  # noqa: ANN401 - as above
+    return f"{type(member).__name__}.{member.name}"
 
 
 def _show_parts(word: Word) -> list[str]:
     rest, shown = int(word), []
     for name, value in word:
+        if isinstance(value, NotPresent):  # its bits, if any are set, are among the rest
+            continue
         shown.append(f"{name}={_part_text(value)}")
         part = vars(type(word))[name]
         rest &= ~((1 << part.high + 1) - (1 << part.low))
@@ -189,24 +204,27 @@ def _unit(text: str) -> str:
     return unicodedata.normalize("NFKC", _UNITS.get(folded.casefold(), folded))
 
 
-def _member(register: Register[Any], members: type[Enum], plain: Plain) -> Any:  # noqa: ANN401 - a member
+def _member(register: Register[Any], members: Iterable[Any], plain: Plain) -> Any:  # noqa: ANN401 - a member, or a code
+    known = list(members)
+    enums = " or ".join(dict.fromkeys(type(one).__name__ for one in known))
     if isinstance(plain, (bool, list)) or (isinstance(plain, float) and not plain.is_integer()):
-        raise ValueRefused(register.path, f"{plain!r} names no member of {members.__name__}")
+        raise ValueRefused(register.path, f"{plain!r} names no member of {enums}")
     text = str(int(plain) if isinstance(plain, float) else plain).strip()
-    known: list[Any] = list(members)
     found = _fitting(known, text)
     if len(found) == 1:
         return found[0]
+    if len({type(one) for one in found}) == len(found) > 1 and len({one.value for one in found}) == 1:
+        return int(found[0].value)  # the member that has the code as the device is set
     if found:
-        which = " or ".join(f"{one.name} ({one.value} {one.label})" for one in found)
+        which = " or ".join(f"{_name(register, one)} ({one.value} {one.label})" for one in found)
         raise ValueRefused(register.path, f"`{text[:60]}` may be {which}: write the name")
-    raise ValueRefused(register.path, f"`{text[:60]}` is no member of {members.__name__}{_suggestion(known, text)}")
+    raise ValueRefused(register.path, f"`{text[:60]}` is no member of {enums}{_suggestion(known, text)}")
 
 
 def _fitting(known: Sequence[Any], text: str) -> list[Any]:
     """Members with this name; else with this label or code; else with a label that begins with this word."""
     wanted, code = text.casefold(), _whole(text)
-    by_name = [one for one in known if one.name.casefold() == wanted]
+    by_name = [one for one in known if wanted in {one.name.casefold(), _qualified(one).casefold()}]
     by_label_or_code = [one for one in known if one.label.casefold() == wanted or one.value == code]
     by_first_word = [one for one in known if one.label.casefold().split()[:1] == [wanted]]
     return by_name or by_label_or_code or by_first_word

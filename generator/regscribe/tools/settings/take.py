@@ -12,6 +12,7 @@ from regscribe.tools.live.value_text import is_number, show
 from regscribe.tools.settings.backup import NO_GROUP, Backup, BackupOrigin, Saved
 from regscribe_runtime import Register, RegscribeError
 from regscribe_runtime.operations.session import Operation, Session, Task
+from regscribe_runtime.registers.codec import present_type
 from regscribe_runtime.registers.octets import OctetType
 from regscribe_runtime.values.conditions import choose
 from regscribe_runtime.values.kinds import OCTETS, Kind
@@ -77,23 +78,31 @@ def backup(driver: Driver, *, link: str = "", now: datetime | None = None) -> Ta
 
 def factory(driver: Driver) -> dict[str, Saved]:
     """The settings of a model by path, where its manual gives a default."""
-    values = {one.path: _default_of(one, one.default) for one in writable(driver) if one.default is not None}
+    values: dict[str, Any] = {}
+    for one in writable(driver):
+        if one.default is not None:
+            values[one.path] = _default_of(one, one.default, values)
     for one in writable(driver):
         with suppress(KeyError):  # the case depends on what has no default
             if (default := choose(one.default_cases, values, {})) is not None:
-                values[one.path] = _default_of(one, default)
+                values[one.path] = _default_of(one, default, values)
     return {path: _saved(driver.registers[path], value, values, {}) for path, value in values.items()}
 
 
-def _default_of(register: Register[Any], default: Number | float | str | None) -> Any:  # noqa: ANN401 (a value of any register)
-    """The default as a driver would read it: a member of the enum, a special value, a number, a text."""
+def _default_of(register: Register[Any], default: Number | float | str | None, state: Mapping[str, Any]) -> Any:  # noqa: ANN401 (a value of any register)
+    """The default as a driver would read it: a member of the enum, a special value, a number, a text.
+
+    A code whose meaning depends on what is not in `state` stays a number.
+    """
     value_type = register.value_type
     if isinstance(value_type, OctetType) and isinstance(default, str):
         return value_type.parse(default)
     if register.kind in TEXTS or default is None:
         return default
     if value_type.coded:
-        return value_type.make(int(default))
+        with suppress(KeyError):
+            return present_type(register, state, {}).make(int(default))
+        return int(default)
     number = Fraction(default) if isinstance(default, str) else exact(default)
     for member in value_type.special or ():
         if exact(member.value) == number:

@@ -32,7 +32,7 @@ from regscribe_runtime.operations.write_request import (
     unlock,
 )
 from regscribe_runtime.registers import codec
-from regscribe_runtime.registers.enums import Flags, unnamed_bits
+from regscribe_runtime.registers.enums import Flags, Word
 from regscribe_runtime.registers.register import Register
 from regscribe_runtime.report import Words
 from regscribe_runtime.values.kinds import Kind
@@ -105,7 +105,8 @@ def _changed_bits(session: Session, register: Register[Any], view: View, before:
     ):
         return 0
     with suppress(ValueRefused):
-        kept = unnamed_bits(before) if isinstance(before, Flags) else 0
+        held = before if isinstance(before, int) else 0
+        kept = codec.idle_bits(register, held, session.memory, session.givens)
         return codec.encode(register, view, before, session.memory, session.givens, kept=kept)[0] ^ words[0]
     return 0
 
@@ -136,14 +137,14 @@ def write_raw(register: Register[Any], words: tuple[int, ...], view_name: str | 
 
 
 def change(register: Register[T], how: Callable[[T], T], *, confirm: bool, verify: bool | None = None) -> Task[T]:
-    """Read, modify, write; unnamed bits stay as they are."""
+    """Read, modify, write; bits without a meaning, or without one now, stay as they are."""
 
     def task(session: Session) -> Operation[T]:
         before = yield from read(register, None)(session)
         value = how(before)
-        kept = 0
-        if isinstance(before, Flags) and (kept := unnamed_bits(before)):
-            value = register.value_type.make(int(value) | kept)  # type: ignore[call-overload] # flags are whole numbers
+        held = int(before) if isinstance(before, Flags | Word) else 0
+        if kept := codec.idle_bits(register, held, session.memory, session.givens):
+            value = register.value_type.make(int(value) | kept)  # type: ignore[call-overload] # bits are whole numbers
         yield from write(register, value, confirm=confirm, verify=verify, kept=kept, before=before)(session)
         return value
 

@@ -15,12 +15,10 @@ from regscribe_runtime.operations.session import Operation, Session
 from regscribe_runtime.operations.write_order import needs, order
 from regscribe_runtime.operations.write_request import check_condition, check_confirmation
 from regscribe_runtime.registers import codec
-from regscribe_runtime.registers.enums import unnamed_bits
 from regscribe_runtime.registers.presence import absence
 from regscribe_runtime.registers.register import Register
 from regscribe_runtime.report import Change, Fate, Words
 from regscribe_runtime.values.conditions import registers_of
-from regscribe_runtime.values.kinds import Kind
 from regscribe_runtime.values.views import View
 
 SUGGESTED = 3
@@ -181,7 +179,8 @@ def encoded(session: Session, one: Assignment, present: Present, *, rounded: boo
     if not limited:
         register = copy.copy(register)
         register.range = register.valid = ()
-    if register.kind is Kind.FLAGS and isinstance(one.value, int):
+    if register.kind in codec.PATTERNS and isinstance(one.value, int):
         held = meaning(register, one.view, present.words.get(register.path), present.state, session)
-        kept = int(one.value) & unnamed_bits(held) if held is not None else 0
+        idle = 0 if held is None else codec.idle_bits(register, held, present.state, session.givens)
+        kept = int(one.value) & idle
     return codec.encode(register, one.view, one.value, present.state, session.givens, rounded=rounded, kept=kept)

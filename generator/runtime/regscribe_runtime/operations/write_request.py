@@ -100,7 +100,7 @@ def run(command: Sendable, *, confirm: bool, values: Mapping[str, object] = Mapp
         state = yield from know(session, command.when.registers, fresh=True)
         if not command.when.holds(state, session.givens):
             present = seen(command.when, state, session.givens)
-            raise NotPresent(command.id, condition_text(command.when), present)
+            raise NotPresent(command.id, condition_text(command.when, state), present)
         given = yield from _words_of_arguments(session, command, values)
         steps = [one._replace(words=given.get(one.argument, one.words)) for one in command.steps]
         try:

@@ -17,7 +17,8 @@ from regscribe_runtime.errors import (
     ValueRefused,
 )
 from regscribe_runtime.registers.octets import OctetType
-from regscribe_runtime.registers.value_types import ValueType
+from regscribe_runtime.registers.presence import missing
+from regscribe_runtime.registers.value_types import FlagsType, ValueType, WordType
 from regscribe_runtime.values.conditions import Cases, Givens, State, choose, registers_of
 from regscribe_runtime.values.kinds import OCTETS, Kind
 from regscribe_runtime.values.numbers import ROUNDINGS, Number, brief, exact, half_up, rough, shortest
@@ -193,12 +194,20 @@ def same(wire: Any) -> Any:
     return wire
 
 
+def present_type(register: Coded, state: State, givens: Givens) -> ValueType[Any]:
+    """The type of a register's values without what does not exist as things stand."""
+    if not register.partial:
+        return register.value_type
+    return register.value_type.without(missing(register.path, register.partial, state, givens))
+
+
 def _scaled(register: Coded, view: View, state: State, givens: Givens) -> Converter:
     if register.kind in PATTERNS:
-        make, mask = register.value_type.make, view.type.maximum - view.type.minimum
+        make, mask = present_type(register, state, givens).make, view.type.maximum - view.type.minimum
         return lambda wire: make(wire & mask)
     if register.value_type.coded:
-        return register.value_type.make
+        make = present_type(register, state, givens).make
+        return make if view.type.is_integer else lambda wire: make(_code(register, view, wire))
     slope, offset, _ = _line(register, state, givens)
     slope /= Fraction(view.factor)
     scaled = _ieee(register, view, slope, offset) if view.type.is_float else _whole(register, view, slope, offset)
@@ -217,6 +226,16 @@ def _scaled(register: Coded, view: View, state: State, givens: Givens) -> Conver
         return value
 
     return checked
+
+
+def _code(register: Coded, view: View, wire: float) -> int:
+    """The code that a number on the wire is; NotDecodable where it is no whole number."""
+    if not math.isfinite(wire):
+        raise NotDecodable(register.path, f"the {view.name} view holds {wire}, which is no code")
+    code = _exactly(view, wire)
+    if code.denominator != 1:
+        raise NotDecodable(register.path, f"{rough(code)} is no whole number, and so no code")
+    return code.numerator
 
 
 def _exactly(view: View, wire: float) -> Fraction:
@@ -414,6 +433,12 @@ def carried_over(
     return tuple(arrange(shown))
 
 
+def idle_bits(register: Coded, held: int, state: State, givens: Givens) -> int:
+    """The bits that are set in a word `held` and have no meaning as things stand: a write may leave them so."""
+    kind = present_type(register, state, givens)
+    return kind.idle(held) if isinstance(kind, FlagsType | WordType) else 0
+
+
 def encode(
     register: Coded,
     view: View,
@@ -457,7 +482,7 @@ def _amount(register: Coded, value: object, state: State, givens: Givens) -> tup
     for code, (member, _) in specials.items():
         if value is member and member is not None:
             return code, True
-    amount = register.value_type.number(register.path, value)
+    amount = present_type(register, state, givens).number(register.path, value)
     for code, (member, number) in specials.items():
         if amount == number and member is None:
             return code, True

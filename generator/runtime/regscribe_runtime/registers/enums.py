@@ -1,11 +1,12 @@
 """Values with names: enums whose unknown codes survive, flags that keep unknown bits, words of bit fields."""
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 from enum import Enum, IntEnum, IntFlag
 from fractions import Fraction
+from types import MappingProxyType
 from typing import Any, ClassVar, Generic, Self, TypeVar, overload
 
-from regscribe_runtime.errors import SensorFault
+from regscribe_runtime.errors import ConditionNotMet, NotPresent, SensorFault
 from regscribe_runtime.values.numbers import Number, exact, rough
 
 V = TypeVar("V")
@@ -43,13 +44,27 @@ class Choice(_Labelled, IntEnum):
 
     @classmethod
     def _missing_(cls, value: object) -> Self | None:
-        if not isinstance(value, int):
-            return None
+        return cls.unknown(value) if isinstance(value, int) else None
+
+    @classmethod
+    def unknown(cls, value: int) -> Self:
+        """The pseudo-member of a code that is not known, or that no member has as the device is set."""
         unknown = int.__new__(cls, value)
         unknown._name_, unknown._value_ = f"UNKNOWN_{value}", value
         others = _OTHERS.get((cls.__qualname__, cls.__module__), "")
         unknown.label, unknown.description, unknown.known = others or f"unknown code {value}", "", False
         return unknown
+
+    def __eq__(self, other: object) -> bool:
+        """Whether it is the same member, or the same number; a code that is not known is no member that has it."""
+        if isinstance(other, Choice):
+            return type(self) is type(other) and self._value_ == other._value_ and self.known is other.known
+        return int.__eq__(self, other)
+
+    def __ne__(self, other: object) -> bool:
+        return not self == other
+
+    __hash__ = int.__hash__
 
 
 class SpecialNumber(float, Enum):
@@ -88,6 +103,15 @@ class Field(Generic[V]):
 
     def __init__(self, low: int, high: int, kind: type[V], label: str = "") -> None:
         self.low, self.high, self.kind, self.label = low, high, kind, label
+        self.id = self.name = ""
+
+    def __set_name__(self, owner: type, name: str) -> None:
+        self.id, self.name = name, f"{owner.__name__}.{name}"
+
+    @property
+    def mask(self) -> int:
+        """The bits of the word that are its own."""
+        return (1 << self.high + 1) - (1 << self.low)
 
     @overload
     def __get__(self, instance: None, owner: type) -> Self: ...
@@ -96,8 +120,14 @@ class Field(Generic[V]):
     def __get__(self, instance: "Word | None", owner: type) -> Self | V:
         if instance is None:
             return self
+        if self.id in instance.absent:
+            raise instance.absent[self.id]
+        return self.of(int(instance))
+
+    def of(self, code: int) -> V:
+        """The value in the word `code`."""
         kind: Any = self.kind
-        value: V = kind(int(instance) >> self.low & (1 << (self.high - self.low + 1)) - 1)
+        value: V = kind((code & self.mask) >> self.low)
         return value
 
 
@@ -130,9 +160,6 @@ class NumberField(Field[V]):
         super().__init__(low, high, kind, label)
         self.signed, self.multiply, self.add, self.limits, self.faults = signed, multiply, add, limits, faults
 
-    def __set_name__(self, owner: type, name: str) -> None:
-        self.name = f"{owner.__name__}.{name}"
-
     def of(self, code: int) -> V:
         """The value in the word `code`; SensorFault for a number that reports a fault."""
         size = 1 << self.high - self.low + 1
@@ -160,29 +187,44 @@ class NumberField(Field[V]):
             raise ValueError(message)
         return number.numerator & size - 1
 
-    @overload
-    def __get__(self, instance: None, owner: type) -> Self: ...
-    @overload
-    def __get__(self, instance: "Word", owner: type) -> V: ...
-    def __get__(self, instance: "Word | None", owner: type) -> Self | V:
-        return self if instance is None else self.of(int(instance))
-
 
 class Word(int):
-    """A word of bit fields: an int whose subclasses name its parts; `replace` makes a changed copy."""
+    """A word of bit fields: an int whose subclasses name its parts; `replace` makes a changed copy.
+
+    `absent` are the parts that did not exist when it was read, each with the error that reading it raises.
+    """
 
     parts: ClassVar[tuple[str, ...]] = ()
+    absent: Mapping[str, NotPresent] = MappingProxyType({})
 
     def __init_subclass__(cls) -> None:
         cls.parts = tuple(name for name, part in vars(cls).items() if isinstance(part, Field))
 
+    @classmethod
+    def mask(cls, name: str) -> int:
+        """The bits of a part."""
+        part: Field[Any] = vars(cls)[name]
+        return part.mask
+
+    def lacking(self, absent: Mapping[str, NotPresent]) -> Self:
+        """The same word where these parts do not exist."""
+        word = type(self)(self)
+        word.absent = absent
+        return word
+
     def replace(self, **parts: float) -> Self:
-        """A copy with some parts set anew; TypeError for an unknown part, ValueError for one that does not fit."""
+        """A copy with some parts set anew.
+
+        TypeError for an unknown part, ValueError for one that does not fit, ConditionNotMet for one that is absent.
+        """
         code = int(self)
         for name, value in parts.items():
             if name not in self.parts:
                 message = f"{type(self).__name__} has no part {name!r}; it has {', '.join(self.parts)}"
                 raise TypeError(message)
+            if name in self.absent:
+                gone = self.absent[name]
+                raise ConditionNotMet(gone.register, f"it exists only while {gone.condition}", gone.present)
             part = vars(type(self))[name]
             mask = (1 << (part.high - part.low + 1)) - 1
             value = part.code_of(value) if isinstance(part, NumberField) else value  # noqa: PLW2901 (its bits)
@@ -190,7 +232,7 @@ class Word(int):
                 message = f"{name} is {value!r}, but {part.high - part.low + 1} bits hold 0 to {mask}"
                 raise ValueError(message)
             code = code & ~(mask << part.low) | int(value) << part.low
-        return type(self)(code)
+        return type(self)(code).lacking(self.absent)
 
     def __iter__(self) -> Iterator[tuple[str, Any]]:
         return ((name, self._part(name)) for name in self.parts)
@@ -198,8 +240,8 @@ class Word(int):
     def _part(self, name: str) -> Any:
         try:
             return getattr(self, name)
-        except SensorFault as fault:
-            return fault
+        except (SensorFault, NotPresent) as error:
+            return error
 
     def __repr__(self) -> str:
         inside = ", ".join(f"{name}={value!r}" for name, value in self)

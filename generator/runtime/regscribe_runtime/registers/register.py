@@ -25,6 +25,7 @@ SPEAKING = (
     "range",
     "valid",
     "sentinels",
+    "partial",
     "unit",
     "writable",
     "when",
@@ -39,12 +40,13 @@ class Register(Generic[T]):
     """The declaration of a register: its address, what its words mean and when it may be written.
 
     `at` is the n of its views' address formulas. `special_scale` divides the codes of special values, as the range's
-    decimals divide its limits; `valid` is what a reading must lie in. `default` is the manual's, in engineering units
-    (`default_cases` where it differs by case). `unit` is an engineering unit, or cases of them. `stays` is why the
-    value must not be copied to another device (address, line, calibration, identity, counter, operation, momentary; "":
-    it may be), `governs` what it sets of the serial line, `settle` the milliseconds after a write in which reading back
-    is not reliable; `rescales` names the unit whose values the device converts. It exists only while `when` holds;
-    `reading` is how it wants to be read.
+    decimals divide its limits; `valid` is what a reading must lie in. `partial` names flags and parts that exist only
+    in some case, and enums by their place in the type (`0`, one member `0.AUTO`). `default` is the manual's, in
+    engineering units (`default_cases` where it differs by case). `unit` is an engineering unit, or cases of them.
+    `stays` is why the value must not be copied to another device (address, line, calibration, identity, counter,
+    operation, momentary; "": it may be), `governs` what it sets of the serial line, `settle` the milliseconds after a
+    write in which reading back is not reliable; `rescales` names the unit whose values the device converts. It exists
+    only while `when` holds; `reading` is how it wants to be read.
 
     In a `block` addresses count from its base, which is not known (`origin` is None) before it is `located`;
     `reach` is the first address behind its element in an array that goes to the end of the block, else 0. `slips` are
@@ -70,6 +72,7 @@ class Register(Generic[T]):
         unit: str | Cases[str] = "",
         section: str = "",
         sentinels: tuple[Sentinel, ...] = (),
+        partial: Cases[str] = (),
         aliases: tuple[int, ...] = (),
         writable: WriteCondition | None = None,
         persistence: str = "",
@@ -86,7 +89,7 @@ class Register(Generic[T]):
     ) -> None:
         self.at, self.views, self.value_type, self.kind = at, views, value_type, value_type.kind
         self.scale, self.range, self.valid, self.sentinels = scale, range, valid, sentinels
-        self.special_scale = special_scale
+        self.special_scale, self.partial = special_scale, partial
         spelled = isinstance(value_type, OctetType) and isinstance(default, str)
         self.default: T | float | str | None = value_type.parse(default) if spelled else default  # type: ignore[attr-defined] # of octets
         self.default_cases, self.section, self.aliases = default_cases, section, aliases

@@ -1,16 +1,19 @@
 """Python types of register values: float, int, enum, flags, word, text, version or bool."""
 
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
 from enum import Enum
 from fractions import Fraction
+from types import MappingProxyType
 from typing import Any, Generic, TypeVar
 
-from regscribe_runtime.errors import NotDecodable, ValueRefused
+from regscribe_runtime.errors import ConditionNotMet, NotDecodable, NotPresent, ValueRefused
 from regscribe_runtime.registers.enums import Choice, Flags, SpecialNumber, Word
 from regscribe_runtime.values.kinds import Kind
 from regscribe_runtime.values.numbers import Number, brief, exact, rough
 
 T = TypeVar("T")
+Missing = Mapping[str, NotPresent]
+"""What a value can be made of and does not exist now, by name, with the error of each."""
 C = TypeVar("C", bound=Choice)
 S = TypeVar("S", bound=Choice | SpecialNumber)
 F = TypeVar("F", bound=Flags)
@@ -39,6 +42,11 @@ class ValueType(Generic[T]):
     ) -> None:
         self.kind, self.make, self.number, self.coded = kind, make, number, coded
         self.special, self.means = special, means or {}
+
+    def without(self, missing: Missing) -> "ValueType[T]":
+        """The same type while some of what its values are made of does not exist."""
+        message = f"values of kind {self.kind} are not made of {', '.join(missing)}"
+        raise TypeError(message)
 
 
 def _any_number(register: str, value: Any) -> Fraction:
@@ -81,45 +89,146 @@ def integer_with(means: dict[Number, Number]) -> ValueType[int]:
     return ValueType(Kind.INTEGER, int, _whole_number, means=means)
 
 
-def choice(members: type[C]) -> ValueType[C]:
-    """An enum; unknown codes are read as pseudo-members and refused in a write."""
+class ChoiceType(ValueType[C]):
+    """Values of an enum, or of one enum in each case; unknown codes are pseudo-members, which a write refuses."""
 
-    def code(register: str, value: Any) -> Fraction:
+    __slots__ = ("classes", "missing")
+
+    def __init__(self, classes: tuple[type[C], ...], missing: Missing = MappingProxyType({})) -> None:
+        self.classes, self.missing = classes, missing
+        make = classes[0] if len(classes) == 1 and not missing else self._make
+        super().__init__(Kind.ENUM, make, self._code, coded=True)
+
+    def without(self, missing: Missing) -> "ChoiceType[C]":
+        """The same enums while some of their members do not exist."""
+        return ChoiceType(self.classes, missing) if missing else self
+
+    @property
+    def members(self) -> tuple[C, ...]:
+        """The members of all enums."""
+        return tuple(member for one in self.classes for member in one)
+
+    @property
+    def _name(self) -> str:
+        return " or ".join(one.__name__ for one in self.classes)
+
+    def _gone(self, member: C) -> NotPresent | None:
+        place = self.classes.index(type(member))
+        return self.missing.get(str(place)) or self.missing.get(f"{place}.{member.name}")
+
+    def _make(self, code: int) -> C:
+        for member in self.members:
+            if member.value == code and not self._gone(member):
+                return member
+        present = [one for place, one in enumerate(self.classes) if str(place) not in self.missing]
+        return (present or self.classes)[0].unknown(code)
+
+    def _code(self, register: str, value: Any) -> Fraction:
         if isinstance(value, bool) or not isinstance(value, int) or (isinstance(value, Choice) and not value.known):
-            raise ValueRefused(register, f"{brief(value)} is no member of {members.__name__}")
-        if isinstance(value, Choice) and not isinstance(value, members):
-            raise ValueRefused(register, f"{value!r} belongs to {type(value).__name__}, not to {members.__name__}")
-        if all(member.value != value for member in members):
-            known = ", ".join(f"{member.value} {member.label}" for member in members)
+            raise ValueRefused(register, f"{brief(value)} is no member of {self._name}")
+        if isinstance(value, Choice) and not isinstance(value, self.classes):
+            raise ValueRefused(register, f"{value!r} belongs to {type(value).__name__}, not to {self._name}")
+        members = [value] if isinstance(value, self.classes) else [one for one in self.members if one.value == value]
+        if not members:
+            known = ", ".join(f"{member.value} {member.label}" for member in self.members if not self._gone(member))
             raise ValueRefused(register, f"code {brief(int(value))} is none of {known}")
+        if all(map(self._gone, members)):
+            raise _not_now(register, f"{type(members[0]).__name__}.{members[0].name}", self._gone(members[0]))
         return Fraction(int(value))
 
-    return ValueType(Kind.ENUM, members, code, coded=True)
+
+def _not_now(register: str, name: str, gone: NotPresent | None) -> ValueRefused:
+    condition, present = (gone.condition, gone.present) if gone else ("", {})
+    return ConditionNotMet(register, f"{name} exists only while {condition}", present)
 
 
-def flags(members: type[F]) -> ValueType[F]:
-    """A word of single bits; unnamed bits are refused in a write."""
+def choice(*classes: type[C]) -> ChoiceType[C]:
+    """An enum; with several, the register's `partial` cases say which of them counts."""
+    return ChoiceType(classes)
 
-    def code(register: str, value: Any) -> Fraction:
+
+class _BitsType(ValueType[T]):
+    """A word whose bits have meanings by name, some of which may be `missing` now."""
+
+    __slots__ = ("bits", "missing", "named")
+
+    def __init__(
+        self, kind: Kind, make: Callable[[Any], T], name: str, bits: Mapping[str, int], missing: Missing
+    ) -> None:
+        self.named, self.bits, self.missing = name, bits, missing
+        super().__init__(kind, make, self._code, coded=True)
+
+    @property
+    def absent(self) -> int:
+        """The bits of what does not exist now."""
+        return sum(self.bits[name] for name in self.missing)
+
+    def _code(self, register: str, value: Any) -> Fraction:
         if isinstance(value, bool) or not isinstance(value, int):
-            raise ValueRefused(register, f"{brief(value)} is no {members.__name__}")
-        unnamed = _any_number(register, int(value)).numerator & ~int(members.named())
+            raise ValueRefused(register, f"{brief(value)} is no {self.named}")
+        code = _any_number(register, int(value)).numerator
+        for name, gone in self.missing.items():
+            if code & self.bits[name]:
+                raise _not_now(register, name, gone)
+        return Fraction(code)
+
+
+class FlagsType(_BitsType[F]):
+    """A word of single bits; unnamed bits are refused in a write, and those of flags that do not exist."""
+
+    __slots__ = ("members",)
+
+    def __init__(self, members: type[F], missing: Missing = MappingProxyType({})) -> None:
+        self.members = members
+        bits = {str(one.name): int(one) for one in members}
+        super().__init__(Kind.FLAGS, members, members.__name__, bits, missing)
+
+    def without(self, missing: Missing) -> "FlagsType[F]":
+        """The same word while some of its flags do not exist."""
+        return FlagsType(self.members, missing) if missing else self
+
+    def idle(self, code: int) -> int:
+        """The bits of a word that mean nothing now."""
+        return code & (~int(self.members.named()) | self.absent)
+
+    def _code(self, register: str, value: Any) -> Fraction:
+        code = super()._code(register, value)
+        unnamed = int(code) & ~int(self.members.named())
         if unnamed:
-            raise ValueRefused(register, f"bits 0x{unnamed:X} have no meaning in {members.__name__}")
-        return Fraction(int(value))
-
-    return ValueType(Kind.FLAGS, members, code, coded=True)
+            raise ValueRefused(register, f"bits 0x{unnamed:X} have no meaning in {self.members.__name__}")
+        return code
 
 
-def word_of(members: type[W]) -> ValueType[W]:
-    """A word of bit fields, written as one number."""
+def flags(members: type[F]) -> FlagsType[F]:
+    """A word of single bits."""
+    return FlagsType(members)
 
-    def code(register: str, value: Any) -> Fraction:
-        if isinstance(value, bool) or not isinstance(value, int):
-            raise ValueRefused(register, f"{brief(value)} is no {members.__name__}")
-        return _any_number(register, int(value))
 
-    return ValueType(Kind.FIELDS, members, code, coded=True)
+class WordType(_BitsType[W]):
+    """A word of bit fields, written as one number; bits of parts that do not exist are refused in a write."""
+
+    __slots__ = ("members",)
+
+    def __init__(self, members: type[W], missing: Missing = MappingProxyType({})) -> None:
+        self.members = members
+        bits = {name: members.mask(name) for name in members.parts}
+        super().__init__(Kind.FIELDS, self._make if missing else members, members.__name__, bits, missing)
+
+    def without(self, missing: Missing) -> "WordType[W]":
+        """The same word while some of its parts do not exist."""
+        return WordType(self.members, missing) if missing else self
+
+    def idle(self, code: int) -> int:
+        """The bits of a word that are of no part that exists now, though of one that may."""
+        return code & self.absent
+
+    def _make(self, code: int) -> W:
+        return self.members(code).lacking(self.missing)
+
+
+def word_of(members: type[W]) -> WordType[W]:
+    """A word of bit fields."""
+    return WordType(members)
 
 
 def _bit(register: str, value: Any) -> Fraction:

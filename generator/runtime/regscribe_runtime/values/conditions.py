@@ -1,6 +1,6 @@
 """Conditions on the values of other registers, and cases selected by them."""
 
-from collections.abc import Iterable, Mapping
+from collections.abc import Callable, Iterable, Mapping
 from fractions import Fraction
 from typing import Any, Generic, NamedTuple, TypeVar
 
@@ -80,19 +80,28 @@ class Is(NamedTuple):
     @property
     def words(self) -> str:
         """The test in plain words: `input_type is 13 to 22`."""
+        return self.told(Is.end)
+
+    def told(self, end: "Tell") -> str:
+        """The test in words, with `end` for each code."""
         be = "is not" if self.negated else "is"
         if self.asks_given:
             return f"{self.register} {be} one of {self.given}" if self.register else f"{self.given} {be} true"
-        return f"{self.subject} {be} {' or '.join(self._shown(*ends) for ends in self.codes)}"
+        return f"{self.subject} {be} {' or '.join(self._shown(*ends, end) for ends in self.codes)}"
 
-    def _shown(self, low: Any, high: Any) -> str:
-        first, last = (self._end(end) for end in (low, high))
+    def _shown(self, low: Any, high: Any, end: "Tell") -> str:
+        first, last = (end(self, one) for one in (low, high))
         if low == high:
             return first
         return f"at most {last}" if low == BOTTOM else f"at least {first}" if high == TOP else f"{first} to {last}"
 
-    def _end(self, end: Any) -> str:
+    def end(self, end: Any) -> str:
+        """A code as text."""
         return version_of_key(end) if self.version else end if isinstance(end, str) else show(end)
+
+
+Tell = Callable[[Is, Any], str]
+"""How a code of a test is told."""
 
 
 def at_least(subject: str, least: int) -> Is:
@@ -111,10 +120,9 @@ class AnyOf(NamedTuple):
         """Tell whether the test is true; the error of a value that counts and is not known."""
         return _decided(self.conditions, state, givens, by=True) is not self.negated
 
-    @property
-    def words(self) -> str:
-        """The test in plain words."""
-        return f"{'not ' if self.negated else ''}({' or '.join(each.words for each in self.conditions)})"
+    def told(self, end: Tell) -> str:
+        """The test in words, with `end` for each code."""
+        return f"{'not ' if self.negated else ''}({' or '.join(each.told(end) for each in self.conditions)})"
 
 
 def _decided(tests: Iterable["Is | AnyOf | Condition"], state: State, givens: Givens, *, by: bool) -> bool:
@@ -164,7 +172,11 @@ class Condition(NamedTuple):
     @property
     def words(self) -> str:
         """The condition in plain words."""
-        return " and ".join(test.words for test in self.tests)
+        return self.told(Is.end)
+
+    def told(self, end: Tell) -> str:
+        """The condition in words, with `end` for each code."""
+        return " and ".join(test.told(end) for test in self.tests)
 
 
 ALWAYS = Condition()

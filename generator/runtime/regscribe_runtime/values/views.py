@@ -136,6 +136,8 @@ class Scaled(Protocol):
     def valid(self) -> Cases[Range]: ...  # noqa: D102
     @property
     def sentinels(self) -> tuple[Sentinel, ...]: ...  # noqa: D102
+    @property
+    def partial(self) -> Cases[str]: ...  # noqa: D102
 
 
 class Readable(Placed, Scaled, Protocol):
@@ -165,7 +167,7 @@ def scale_needs(register: Scaled) -> tuple[str, ...]:
 def needs(register: Scaled, view: View) -> tuple[str, ...]:
     """Registers that must be known to decode `view`: first those that tell whether the register exists."""
     faults = [name for one in register.sentinels for name in one.when.registers]
-    others = (*scale_needs(register), *faults, *_range_needs(register.valid))
+    others = (*scale_needs(register), *faults, *_range_needs(register.valid), *registers_of(register.partial))
     return tuple(dict.fromkeys((*register.when.registers, *view.needs(), *others)))
 
 
