@@ -82,13 +82,21 @@ def excludes(one: Condition, other: Condition) -> bool:
 def _contrary(test: Is | AnyOf, other: Is | AnyOf) -> bool:
     if test._replace(negated=not test.negated) == other:
         return True
-    for mixed, single in ((test, other), (other, test)):
-        if isinstance(mixed, AnyOf):
-            alone = Condition((single,))
-            return not mixed.negated and all(excludes(each, alone) for each in mixed.conditions)
-    if not (isinstance(test, Is) and isinstance(other, Is)) or test.subject != other.subject:
+    if isinstance(test, Is) and isinstance(other, Is):
+        return test.subject == other.subject and bool(test.codes and other.codes) and _disjoint(test, other)
+    return _none_beside(test, other) or _none_beside(other, test)
+
+
+def _none_beside(mixed: Is | AnyOf, single: Is | AnyOf) -> bool:
+    """Whether a test excludes each alternative of another."""
+    if mixed.negated or not isinstance(mixed, AnyOf):
         return False
-    if not (test.codes and other.codes) or (test.negated and other.negated):
+    return all(excludes(each, Condition((single,))) for each in mixed.conditions)
+
+
+def _disjoint(test: Is, other: Is) -> bool:
+    """Whether no code meets both tests of one subject."""
+    if test.negated and other.negated:
         return False
     if test.negated or other.negated:
         inner, outer = (other, test) if test.negated else (test, other)
