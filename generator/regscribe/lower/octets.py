@@ -13,10 +13,17 @@ EXAMPLES = "`y M D h m s`, `yM Dh ms`, `hhmm`, `unix`, `minutes`"
 
 
 def words_of(wire: WireType, keys: Keyed, space: Space) -> int:
-    """The words of a type; RS0336 for a length that it cannot have, RS0341 for a layout that says no date or time."""
-    length = keys.child("length")
+    """The words of a type, by the keys of a register; nothing is missing where these are of a view set alone.
+
+    RS0336 for a length that it cannot have or lacks, RS0341 for a layout that says no date or time.
+    """
+    length, where = keys.child("length"), keys.child("type") or keys.child("views")
     if wire.is_octets and KINDS[wire] in MOMENTS:
-        return _laid_out(wire, keys.child("layout"), keys)
+        return _laid_out(wire, keys.child("layout"), where)
+    if length is None and wire in _FREE and space is not Space.IDENTIFICATION and where:
+        where.report(
+            IDLE_LENGTH, f"`type: {wire}` needs a `length`", remedy="say how many words it takes, as `length: 8`"
+        )
     if length is None or wire in _FREE:
         usual = space.most if space is Space.IDENTIFICATION else wire.words  # an object tells its length itself
         return length.whole() if length and wire.is_octets else usual
@@ -29,11 +36,12 @@ def words_of(wire: WireType, keys: Keyed, space: Space) -> int:
     return wire.words
 
 
-def _laid_out(wire: WireType, layout: Value | None, keys: Keyed) -> int:
+def _laid_out(wire: WireType, layout: Value | None, where: Value | None) -> int:
     if layout is None:
-        where = keys.child("type")
         if where:
-            where.report(BAD_LAYOUT, f"a {wire} needs a `layout`", remedy=f"say what the words hold, as {EXAMPLES}")
+            where.report(
+                BAD_LAYOUT, f"`type: {wire}` needs a `layout`", remedy=f"say what the words hold, as {EXAMPLES}"
+            )
         return 1
     text = " ".join(layout.text().split())
     try:

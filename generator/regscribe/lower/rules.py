@@ -98,7 +98,11 @@ RULES: tuple[Rule, ...] = (
     Rule(UNKNOWN_SET, "Unknown set", _NAMES),
     Rule(SET_IN_ITSELF, "Set that contains itself", "A set within itself would have no end."),
     Rule(NO_MODULE, "Map id with a Python keyword", "Python cannot import a module that has the name of a keyword."),
-    Rule(IDLE_LENGTH, "Length of a number", "A type says how many words a number takes; only a text has a length."),
+    Rule(
+        IDLE_LENGTH,
+        "Length of a number, or none of a text",
+        "A type tells the words of a number, the map those of a text.",
+    ),
     Rule(
         DIVIDED,
         "Condition on a special value that decimals divide",

@@ -98,6 +98,11 @@ class Scope:
         owners = next((self.owners[f"{at}{name}"] for at in (*self.prefixes, "") if f"{at}{name}" in self.owners), ())
         if self.lenient and (owners or any(path.endswith(f".{name}") for path in self.owners)):
             return
+        if not owners and self.map.mapping_of("givens").child(name):
+            message, remedy = f"there is no register `{name}`, but a given", f"write `{{given: {name}}}`"
+            remedy += f", or in a condition the key `given.{name}`"
+            node.report(UNKNOWN_REGISTER, message, remedy=remedy, at_key=at_key)
+            return
         if not owners:
             unknown(node, UNKNOWN_REGISTER, "register", name, self.owners, at_key=at_key)
             return

@@ -103,3 +103,11 @@ def test_a_step_whose_words_are_not_certain_is_refused(tried: Tried, register: s
     )
     assert [each.rule for each in mistakes] == ["RS0326"]
     assert "`level`" in mistakes[0].message
+
+
+@pytest.mark.parametrize("key", ["multiply: ct", "when: {ct: 1}"])
+def test_a_given_named_like_a_register_is_told_with_the_way_to_write_it(tried: Tried, key: str) -> None:
+    givens = "        givens:\n          ct: {type: number, description: ratio, reason: it is a setting}\n"
+    _, mistakes = tried(f"{givens}{LINES}              - {{at: 0, name: Load, {key}}}\n")
+    assert [(each.rule, each.message) for each in mistakes] == [("RS0301", "there is no register `ct`, but a given")]
+    assert "`{given: ct}`" in mistakes[0].help
