@@ -144,8 +144,12 @@ def no_section(register: Register, _: RuleScope) -> Iterator[Problem]:
 def manual_not_identified(register_map: RegisterMap) -> Iterator[Problem]:
     """Makers reissue manuals: number or date tells which one was transcribed."""
     if not (register_map.manual.number.strip() or register_map.manual.date.strip()):
-        message = f'the manual "{register_map.manual.title}" has neither number nor date'
-        yield message, "add `manual.number` or `manual.date`"
+        title = register_map.manual.title
+        message = f'the manual "{title}" has neither number nor date' if title else "the map names no manual"
+        yield (
+            message,
+            "add `manual.number` or `manual.date`" if title else "add `manual` with its title, number or date",
+        )
 
 
 @map_rule("RS0498", "Erratum or given that does not say enough")

@@ -6,7 +6,16 @@ from itertools import chain, combinations, pairwise
 from math import ceil, floor
 
 from regscribe.checks.held_values import NUMBERS
-from regscribe.checks.representable import HELP_TYPE, Fit, end_values, ends_of, listed, numbers, unfit_limits, values_of
+from regscribe.checks.representable import (
+    HELP_TYPE,
+    Fit,
+    end_values,
+    listed,
+    numbers,
+    reach_of,
+    unfit_limits,
+    values_of,
+)
 from regscribe.checks.rule import Problem, RuleScope, doubled, register_rule
 from regscribe.model import Cases, Interval, Number, Range, Register, Sentinel, show
 from regscribe.reference import RefusedError, UnknownValueError, choose, limits, within
@@ -142,7 +151,7 @@ def limit_outside_type(register: Register, _: RuleScope) -> Iterator[Problem]:
     for case in chain(*_all_of(register)):
         outside = unfit_limits(register, case.then, Fit.TOO_LARGE, every)
         if outside and _reachable(widest(register), case.then):
-            yield f"has limits {listed(outside)}, outside {ends_of(register)} as scaled", HELP_TYPE
+            yield f"has limits {listed(outside)}, outside {reach_of(register)}", HELP_TYPE
 
 
 @register_rule("RS0425", "Range that cannot be encoded")
@@ -152,7 +161,7 @@ def range_outside_type(register: Register, _: RuleScope) -> Iterator[Problem]:
     for case in chain(*_all_of(register)):
         if case.then.intervals and not _reachable(reach, case.then):
             found = listed(list(numbers(case.then)))
-            yield f"has a range ({found}) that lies wholly outside {ends_of(register)} as scaled", HELP_TYPE
+            yield f"has a range ({found}) that lies wholly outside {reach_of(register)}", HELP_TYPE
         elif _only_faults(register, case.then):
             yield "has a range of nothing but numbers by which it reports faults", "correct the range or the sentinels"
 

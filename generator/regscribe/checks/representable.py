@@ -6,7 +6,8 @@ from fractions import Fraction
 
 from regscribe.model import Number, Range, Register, Special, View, show
 from regscribe.reference import ieee_bits, ieee_number, shortest
-from regscribe.reference.settled_scales import Form, factors, forms
+from regscribe.reference.settled_scales import Form, factors, forms, widest
+from regscribe_runtime.values.numbers import rough
 
 HELP_TYPE = "correct the number, the type or the scale"
 
@@ -100,6 +101,13 @@ def ends_of(register: Register) -> str:
     """The types of a register for messages: `int16 (-32768 to 32767)`."""
     types = dict.fromkeys(view.type for view in register.views)
     return ", ".join(f"{one} ({' to '.join(map(show, one.ends))})" if one.is_integer else str(one) for one in types)
+
+
+def reach_of(register: Register) -> str:
+    """As `ends_of`, with the values of use that these stand for: `uint8 (0 to 255), which stand for 0 to 25.5`."""
+    reach, types = widest(register), ends_of(register)
+    ends = " to ".join(map(rough, reach)) if reach else ""
+    return types if not ends or f"({ends})" in types else f"{types}, which stand for {ends}"
 
 
 def same_bits(register: Register, values: Iterable[Fraction | int]) -> str:

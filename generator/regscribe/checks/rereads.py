@@ -4,7 +4,7 @@ from collections.abc import Iterator
 
 from regscribe.checks.references import limiting, needed
 from regscribe.checks.rule import Problem, RuleScope, register_rule
-from regscribe.model import Access, Register, Related
+from regscribe.model import Access, Register, Related, View
 
 HELD = ("default", "delivered", "default_cases", "delivered_cases", "shadows", "follows", "persistence", "aliases")
 """What only a register with words of its own can have."""
@@ -26,7 +26,11 @@ def second_reading(register: Register, scope: RuleScope) -> Iterator[Problem]:
     if any(field.follows is not None for field in register.fields):
         yield f"reads `{other.path}` again, and has bits that follow a condition", "remove `follows`", related
     if (why := _elsewhere(register, other)) is not None:
-        yield f"reads `{other.path}` again, which {why}", "correct `at` or `rereads`", related
+        yield (
+            f"reads `{other.path}` again, which {why}",
+            "correct `at` or `rereads`; the longer of two holds the words",
+            related,
+        )
     if register.reading.clears != other.reading.clears:
         yield f"reads `{other.path}` again, and only one of them has `reading: clears`", "give it to both", related
     if register.when != other.when:
@@ -46,9 +50,12 @@ def _elsewhere(register: Register, other: Register) -> str | None:
     same = (register.block, here.space, register.page) == (other.block, there.space, other.page)
     if same and mine <= theirs and not (here.is_apart or there.is_apart):
         return None
-    spelled = there.space.spelled
-    at = " and ".join(map(spelled, sorted({min(theirs), max(theirs)})))
-    return f"has its words at {there.space} {at}, where this one stands at {here.space} {here.space.spelled(min(mine))}"
+    return f"has its words at {_spelled(there, theirs)}, where those of this one are at {_spelled(here, mine)}"
+
+
+def _spelled(view: View, addresses: set[int]) -> str:
+    ends = sorted({min(addresses), max(addresses)})
+    return f"{view.space} {'..'.join(map(view.space.spelled, ends))}"
 
 
 @register_rule("RS0614", "Second reading that decides")

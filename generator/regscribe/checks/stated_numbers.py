@@ -4,7 +4,16 @@ from collections.abc import Iterator
 from fractions import Fraction
 
 from regscribe.checks.held_values import is_fault, outside_type, shown, wrong_sort
-from regscribe.checks.representable import HELP_TYPE, Fit, best_fit, ends_of, same_bits, tells_apart, values_of
+from regscribe.checks.representable import (
+    HELP_TYPE,
+    Fit,
+    best_fit,
+    ends_of,
+    reach_of,
+    same_bits,
+    tells_apart,
+    values_of,
+)
 from regscribe.checks.rule import Problem, RuleScope, register_rule
 from regscribe.model import IDENTITY, Kind, NotANumber, Order, Register, Sentinel, Space, View, WireType, show
 from regscribe.reference import number_of, sentinel_number
@@ -21,7 +30,7 @@ def default_outside_type(register: Register, _: RuleScope) -> Iterator[Problem]:
     for what, value in register.beginnings:
         if not wrong_sort(register, value) and outside_type(register, value):
             bits = same_bits(register, [value] if isinstance(value, Fraction) else [])
-            yield f"has {what} {shown(value)}, outside {ends_of(register)}", bits or HELP_TYPE
+            yield f"has {what} {shown(value)}, outside {reach_of(register)}", bits or HELP_TYPE
 
 
 @register_rule("RS0421", "Special value outside the type")

@@ -169,5 +169,8 @@ def _is_packed(repeat: Value | None, block: str, scope: Scope) -> bool:
     if not block or counter is None or counter.place.block != block or counter.place.array:
         remedy = "give in `to` a register of the same block outside arrays, or remove `packed`"
         message = "what stands behind can only move by a count that stands in the same block, outside all arrays"
+        if to and to.is_mapping and to.child("block"):
+            message = "nothing stands behind an array that goes to the end of its block, so that nothing can move"
+            remedy = "remove `packed`, or give in `to` the register that counts the elements"
         (repeat.child("packed") or repeat).report(NOT_PACKED, message, remedy=remedy)
     return True
