@@ -102,7 +102,17 @@ def _condition(draw: Draw, sel: Decider) -> Any:
 def _term(draw: Draw) -> Any:
     """A number of the map, or one that registers make."""
     number = _of(draw, 2, 0.1, -3, "1/3", "-5/9")
-    return _of(draw, number, "low", "dig", {"power": "dig"}, {"product": [number, "low"]}, {"sum": ["high", number]})
+    return _of(
+        draw,
+        number,
+        "low",
+        "dig",
+        {"power": "dig"},
+        {"product": [number, "low"]},
+        {"sum": ["high", number]},
+        {"max": ["low", number]},
+        {"min": ["high", "low"]},
+    )
 
 
 def _conversion(draw: Draw, kind: str) -> Json:
@@ -193,11 +203,12 @@ def _meaning(draw: Draw, sel: Decider, name: str, kind: str) -> tuple[Json, Json
     form = _of(draw, "number", "number", "number", "number", "enum", "flags", "fields", "version", "boolean")
     most = WIDTHS.get(kind, 0)
     tables: Json = {}
-    if kind in (*FLOATS, *FIXED) or form == "number" or (form in {"flags", "fields"} and not most):
+    if form == "number" or (kind in (*FLOATS, *FIXED) and form != "enum") or (form in {"flags", "fields"} and not most):
         keys, tables = _of_number(draw, sel, name, kind)
     elif form == "enum":
         off = _of(draw, "off", {"label": "off", "invalid": "not here"}, {"label": "off", "id": "fl14"})
-        keys = {"enum": {draw(st.integers(0, 3)): off, 4: _named(draw, sel, "on"), _of(draw, 5, *LIMITS[kind]): "last"}}
+        ends = (5,) if kind in (*FLOATS, *FIXED) else (5, *LIMITS[kind])
+        keys = {"enum": {draw(st.integers(0, 3)): off, 4: _named(draw, sel, "on"), _of(draw, *ends): "last"}}
         keys = {"enum": _by_case(draw, sel, keys["enum"])} if _maybe(draw) else keys
     elif form == "flags":
         bits = draw(st.sets(st.integers(0, most - 1), min_size=1, max_size=4))

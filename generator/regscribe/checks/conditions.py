@@ -6,7 +6,19 @@ from typing import Any
 
 from regscribe.checks.probe_states import verdict
 from regscribe.checks.rule import MAP, Finding, RuleScope, Scopes, map_rule
-from regscribe.model import ByCase, Cases, Condition, GivenRef, Identity, Kind, OrderCases, Register, RegisterMap, Span
+from regscribe.model import (
+    ByCase,
+    Cases,
+    Condition,
+    GivenRef,
+    Identity,
+    Is,
+    Kind,
+    OrderCases,
+    Register,
+    RegisterMap,
+    Span,
+)
 from regscribe_runtime.values.terms import parts_of
 from regscribe_runtime.values.views import scale_needs
 
@@ -108,6 +120,15 @@ def never_holds(register_map: RegisterMap, scopes: Scopes) -> Iterator[Finding]:
                 yield Finding(cases.subject, cases.span, message, help_text)
     yield from _identities(register_map, scopes)
     yield from _commands(scopes)
+    yield from _computed(scopes)
+
+
+def _computed(scopes: Scopes) -> Iterator[Finding]:
+    for scope in scopes:
+        for one in scope.model.computed:
+            if not one.when.always and not verdict((one.when,), scope).possible:
+                message = f"computed value `{one.id}` has a condition that can never hold"
+                yield Finding(one.id, one.span, message, "compare the codes with what the registers can be")
 
 
 def _commands(scopes: Scopes) -> Iterator[Finding]:
@@ -205,6 +226,8 @@ def given_unused(register_map: RegisterMap, scopes: Scopes) -> Iterator[Finding]
     parts = (part for register in registers for part in parts_of((register.scale, register.range, register.views)))
     used |= {part.given for part in parts if isinstance(part, GivenRef)}
     for scope in scopes:
+        computed = parts_of(tuple((one.term, one.valid, one.when) for one in scope.model.computed))
+        used |= {part.given for part in computed if isinstance(part, GivenRef | Is)}
         for command in scope.model.commands:
             whens = (command.when, *(step.when for step in command.steps))
             used |= {test.given for when in whens for test in when.leaves}

@@ -8,9 +8,10 @@ from itertools import combinations
 
 from regscribe.checks.held_values import no_member
 from regscribe.checks.identifiers import ENUM_NAMES, enums_of, normalised
-from regscribe.checks.representable import same_bits
+from regscribe.checks.representable import ends_of, same_bits
 from regscribe.checks.rule import Finding, Problem, RuleScope, register_rule, rule_of_models
-from regscribe.model import BitField, Enum, Kind, Member, Register, show
+from regscribe.model import BitField, Enum, Kind, Member, Register, WireType, show
+from regscribe.reference.ieee import ieee_bits, ieee_number, shortest
 
 EnumCheck = Callable[[Enum], Iterator[Problem]]
 
@@ -31,13 +32,21 @@ def enum_rule(rule_id: str, title: str) -> Callable[[EnumCheck], EnumCheck]:
 @register_rule("RS0440", "Enum code outside the type")
 def code_outside_type(register: Register, _: RuleScope) -> Iterator[Problem]:
     """A code that the word cannot spell can never be read or written."""
-    if register.enum is None or not register.base.type.is_integer:
+    if register.enum is None or register.base.type.is_octets:
         return
-    low, high = register.base.type.minimum, register.base.type.maximum
-    outside = [member.code for member in register.enum.members if not low <= member.code <= high]
+    outside = sorted({one.code for one in register.enum.members if not _carries(register.base.type, one.code)})
     if outside:
-        message = f"has enum codes {', '.join(map(str, outside))}, outside {register.base.type} ({low} to {high})"
+        message = f"has enum codes {', '.join(map(str, outside))}, outside {ends_of(register)}"
         yield message, same_bits(register, outside) or "correct the codes or the type"
+
+
+def _carries(wire: WireType, code: int) -> bool:
+    """Whether a type has the number that a code is; floats skip whole numbers far from 0."""
+    if wire.is_float:
+        bits = ieee_bits(Fraction(code), wire)
+        return bits is not None and ieee_number(bits, wire) == shortest(Fraction(code), wire) == code
+    low, high = wire.ends
+    return low <= code <= high
 
 
 def _label(member: Member) -> str:

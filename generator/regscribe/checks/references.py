@@ -72,8 +72,9 @@ def _in_scale(register: Register) -> tuple[str, ...]:
 def computed_of_no_number(scope: RuleScope) -> Iterator[Finding]:
     """A sum has a meaning only if each of its parts is a number that can be read."""
     for one in scope.model.computed:
-        for other in scope.named(_values([(one.term,)])):
-            if other.kind not in NUMBERS or not other.access.readable:
+        numbers = set(_values([(one.term, one.valid)]))
+        for other in scope.named(registers_in(one.term, one.valid, one.when)):
+            if (other.path in numbers and other.kind not in NUMBERS) or not other.access.readable:
                 message = f"`{one.id}` follows from `{other.path}`, of kind {other.kind} and access {other.access}"
                 related = Related(f"`{other.path}` stands here", other.span)
                 yield Finding(one.id, one.span, message, "name registers that hold numbers and can be read", related)

@@ -119,7 +119,7 @@ def type_and_space(register: Register, _: RuleScope) -> Iterator[Problem]:
 
 @register_rule("RS0426", "Kind does not fit the type")
 def kind_and_type(register: Register, _: RuleScope) -> Iterator[Problem]:
-    """An enum in a float or a number in a text cannot be decoded."""
+    """Bits in a float or a number in a text cannot be decoded."""
     for view in register.views:
         problem, help_text = _of_view(register.kind, view)
         if problem:
@@ -132,7 +132,7 @@ def _of_view(kind: Kind, view: View) -> tuple[str, str]:
     """Why a view cannot carry values of a kind, and what to do; empty if it can."""
     wrong = (
         ((kind in OCTETS or view.type.is_octets) and KINDS.get(view.type) is not kind)
-        or (kind in UNSCALED and view.type.is_float)
+        or (kind in UNSCALED - {Kind.ENUM} and view.type.is_float)
         or (kind in {*WORDS_OF_BITS, Kind.VERSION} and view.type is WireType.BIT)
         or (kind in WORDS_OF_BITS and not view.type.bits)
     )
@@ -167,7 +167,8 @@ def scaled_codes(register: Register, _: RuleScope) -> Iterator[Problem]:
     """Codes, bits and texts are not multiplied; one of them is wrong."""
     if register.kind not in UNSCALED:
         return
-    scaled = any(view.factor != 1 or view.times is not None for view in register.views)
+    own = [1 << view.type.fraction if register.kind is Kind.ENUM else 1 for view in register.views]
+    scaled = any(view.factor != one or view.times for view, one in zip(register.views, own, strict=True))
     if scaled or any(case.then != IDENTITY for case in register.scale):
         yield f"is of kind {register.kind} but has a scale", "remove the scale, or correct `kind`"
 

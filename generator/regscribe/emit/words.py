@@ -26,6 +26,7 @@ from regscribe.model import (
     GivenRef,
     Interval,
     Is,
+    Largest,
     Limit,
     Member,
     Model,
@@ -40,6 +41,7 @@ from regscribe.model import (
     Register,
     Rounding,
     Sentinel,
+    Smallest,
     Special,
     Sum,
     Term,
@@ -244,6 +246,9 @@ def term_words(term: Term, wording: Wording = PLAIN) -> str:
             words = "/".join([over, *(_factor(each, wording, apart=True) for each in divisors)])
         case Sum(terms):
             words = _joined([term_words(each, wording) for each in terms])
+        case Largest(terms) | Smallest(terms):
+            inside = ", ".join(term_words(each, wording) for each in terms)
+            words = f"{'largest' if isinstance(term, Largest) else 'smallest'} of ({inside})"
         case ByCase(cases):
             words = f"({cases_words(map_cases(cases, lambda each: term_words(each, wording)), wording)})"
         case _:

@@ -1,15 +1,16 @@
 """Terms: numbers that a map writes as such or as a fraction, or takes from registers and givens."""
 
 import re
-from collections.abc import Iterable
+from collections.abc import Callable, Iterable
 from fractions import Fraction
+from functools import partial
 from math import prod
 
 from regscribe.lower.conditions import cases_of
 from regscribe.lower.node import ZERO, Value
 from regscribe.lower.rules import UNKNOWN_GIVEN, WRONG_SORT
 from regscribe.lower.scope import Scope
-from regscribe.model import ByCase, GivenRef, Number, Power, Product, Ref, Sum, Term
+from regscribe.model import ByCase, GivenRef, Largest, Number, Power, Product, Ref, Smallest, Sum, Term
 from regscribe_runtime.values.terms import MOST_POWER
 
 ONE = Fraction(1)
@@ -43,21 +44,26 @@ def _zero(node: Value) -> Fraction:
 
 
 def _built(node: Value, scope: Scope) -> Term:
-    """The term of a mapping of one key: a given, a power, a product, a quotient or a sum."""
-    for key, inside in node.items():
-        match key:
-            case "given":
-                return GivenRef(_given(inside, scope))
-            case "power":
-                return power_of(inside, scope)
-            case "product":
-                return product(term_of(each, scope) for each in inside.elements())
-            case "quotient":
-                first, *others = inside.elements()
-                return product([term_of(first, scope)], [_divisor(each, scope) for each in others])
-            case "sum":
-                return summed(term_of(each, scope) for each in inside.elements())
-    return ZERO
+    """The term of a mapping of one key."""
+    return next((_FORMS[key](inside, scope) for key, inside in node.items() if key in _FORMS), ZERO)
+
+
+def _terms(node: Value, scope: Scope) -> list[Term]:
+    return [term_of(each, scope) for each in node.elements()]
+
+
+def _quotient(node: Value, scope: Scope) -> Term:
+    first, *others = node.elements()
+    return product([term_of(first, scope)], [_divisor(each, scope) for each in others])
+
+
+def _extreme(
+    kind: type[Largest | Smallest], choose: Callable[[Iterable[Fraction]], Fraction], node: Value, scope: Scope
+) -> Term:
+    """The largest or the smallest of terms; of numbers alone that number."""
+    terms = _terms(node, scope)
+    numbers = [Fraction(one) for one in terms if isinstance(one, Number)]
+    return choose(numbers) if len(numbers) == len(terms) else kind(tuple(terms))
 
 
 def _given(node: Value, scope: Scope) -> str:
@@ -116,3 +122,15 @@ def summed(terms: Iterable[Term]) -> Term:
     if not found:
         return number
     return found[0] if len(found) == 1 and not number else Sum((*found, number) if number else found)
+
+
+_FORMS: dict[str, Callable[[Value, Scope], Term]] = {
+    "given": lambda node, scope: GivenRef(_given(node, scope)),
+    "power": power_of,
+    "product": lambda node, scope: product(_terms(node, scope)),
+    "quotient": _quotient,
+    "sum": lambda node, scope: summed(_terms(node, scope)),
+    "max": partial(_extreme, Largest, max),
+    "min": partial(_extreme, Smallest, min),
+}
+"""The forms of a term that is built of others, by the key."""

@@ -80,7 +80,7 @@ from regscribe_runtime.values.scales import (
     Range,
     Sentinel,
 )
-from regscribe_runtime.values.terms import ByCase, GivenRef, Power, Product, Ref, Sum, Term
+from regscribe_runtime.values.terms import ByCase, GivenRef, Largest, Power, Product, Ref, Smallest, Sum, Term
 from regscribe_runtime.values.views import View
 from regscribe_runtime.values.wire_types import Order, Rounding, Space, WireType
 
@@ -128,6 +128,7 @@ __all__ = [
     "Interval",
     "Is",
     "Kind",
+    "Largest",
     "Latency",
     "Later",
     "Layout",
@@ -176,6 +177,7 @@ __all__ = [
     "SetpointProgram",
     "Setting",
     "Severity",
+    "Smallest",
     "Space",
     "SpaceLimits",
     "Span",

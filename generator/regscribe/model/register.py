@@ -240,12 +240,17 @@ class Group:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Computed:
-    """A number that follows from registers of one snapshot: `term` over their values in engineering units."""
+    """A number that follows from registers of one snapshot: `term` over their values in engineering units.
+
+    It exists only while `when` holds, and is a value only within `valid`.
+    """
 
     id: str
     name: str
     term: Term
     unit: str = ""
+    valid: Cases[Range] = ()
+    when: Condition = ALWAYS
     description: str = ""
     section: str = ""
     span: Span = NOWHERE

@@ -6,7 +6,7 @@ from typing import NamedTuple
 from regscribe.reference.outcome import UnknownValueError
 from regscribe.reference.surroundings import Known, choose, decimal_factor
 from regscribe_runtime.values.scales import Conversion
-from regscribe_runtime.values.terms import ByCase, GivenRef, Power, Product, Ref, Sum, Term
+from regscribe_runtime.values.terms import ByCase, GivenRef, Largest, Power, Product, Ref, Smallest, Sum, Term
 from regscribe_runtime.values.views import View
 
 MOST_EXPONENT = 10
@@ -47,6 +47,9 @@ def amount(term: Term, known: Known) -> Fraction | None:
     elif isinstance(term, Sum):
         summands = _all(term.terms, known)
         found = None if summands is None else sum(summands, Fraction(0))
+    elif isinstance(term, Largest | Smallest):
+        several = sorted(_all(term[0], known) or ())
+        found = None if not several else several[-1] if isinstance(term, Largest) else several[0]
     else:
         found = Fraction(term)
     return found

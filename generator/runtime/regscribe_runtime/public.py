@@ -153,9 +153,11 @@ from regscribe_runtime.values.scales import within as within
 from regscribe_runtime.values.serial_line import SerialLine as SerialLine
 from regscribe_runtime.values.terms import ByCase as ByCase
 from regscribe_runtime.values.terms import GivenRef as GivenRef
+from regscribe_runtime.values.terms import Largest as Largest
 from regscribe_runtime.values.terms import Power as Power
 from regscribe_runtime.values.terms import Product as Product
 from regscribe_runtime.values.terms import Ref as Ref
+from regscribe_runtime.values.terms import Smallest as Smallest
 from regscribe_runtime.values.terms import Sum as Sum
 from regscribe_runtime.values.views import View as View
 from regscribe_runtime.values.views import word as word

@@ -187,10 +187,10 @@ def test_a_write_that_could_not_be_applied_says_so(driver: Driver, device: Simul
 def test_a_condition_that_does_not_hold_is_told_before_anything_is_sent(driver: Driver) -> None:
     controller = driver()
     with pytest.raises(
-        ConditionNotMet, match=r"^output_1: output 1 is writable in manual mode only; mode is NORMAL$"
+        ConditionNotMet, match=r"^output_1: output 1 is writable in manual mode only; mode is NORMAL \(0\)$"
     ) as caught:
         controller.output_1.write(5)
-    assert caught.value.present == {"mode": "NORMAL"}
+    assert caught.value.present == {"mode": "NORMAL (0)"}
     assert written(controller) == []
 
 

@@ -112,6 +112,9 @@ def _conditions(
         yield from ((model, case.when) for case in register.follows)
         yield from ((model, field.follows) for field in register.fields if field.follows is not None)
     for model in register_map.models:
+        for one in model.computed:
+            yield model, one.when
+            yield from ((model, case.when) for case in one.valid)
         for command in model.commands:
             yield model, command.when
             yield from ((model, step.when) for step in command.steps)

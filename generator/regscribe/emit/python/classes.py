@@ -182,7 +182,11 @@ class Classes:
     def _computed(self, model: Model) -> list[str]:
         lines = []
         for one in model.computed:
-            stated = {"unit": literal(one.unit)} if one.unit else {}
+            stated = {
+                "unit": literal(one.unit) if one.unit else None,
+                "valid": expression(one.valid) if one.valid else None,
+                "when": None if one.when.always else expression(one.when),
+            }
             lines += lay(call("Computed", expression(one.term), **stated), head=f"{one.id} = ", depth=1)
             lines += docstring(f"{one_line(one.name)}: {term_words(one.term)}.", 1)
         return lines

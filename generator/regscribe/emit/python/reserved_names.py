@@ -8,15 +8,15 @@ from regscribe.model import Array, Model, Register, RegisterMap
 RUNTIME = sorted(
     """
     AnyOf Array AsyncBareDevice AsyncClient AsyncDevice AsyncLink AsyncPart BOTTOM BareDevice Bit ByCase Case Chain
-    Choice ClientSettings Command CommandStep CommandWith Computed Condition Conversion Decimals Device ExceptionCode
-    Fact Field Flags GivenRef Governs Group Identity Interval Is Latency Link NotANumber NumberField Open Order
-    OrderCases Page Part Power Product ProgramAction ProgramCounts ProgramFinal ProgramPart ProgramSegments
-    ProgramStates ProgramTimeUnit Protocol Range ReadFacts ReadOnly ReadWrite Ref RegisterBlock Rounding Sentinel
-    SerialDefaults SerialSettings SetpointProgram Setting Space SpaceLimits SpecialNumber SubPart Sum SyncClient TOP
-    TcpSettings TextForm View WhileRunning WireType Word WriteCondition WriteOnly always async_client_link
-    async_serial_link async_tcp boolean choice client_link date_as datetime_as eui48 eui64 flags integer integer_or
-    integer_with ipv4 ipv6 number number_or number_with octets order_from raw raw_float serial_link tcp text text_as
-    time_as version within word word_of
+    Choice ClientSettings Command CommandStep CommandWith Computed Condition Conversion Decimals Device
+    ExceptionCode Fact Field Flags GivenRef Governs Group Identity Interval Is Largest Latency Link NotANumber
+    NumberField Open Order OrderCases Page Part Power Product ProgramAction ProgramCounts ProgramFinal ProgramPart
+    ProgramSegments ProgramStates ProgramTimeUnit Protocol Range ReadFacts ReadOnly ReadWrite Ref RegisterBlock
+    Rounding Sentinel SerialDefaults SerialSettings SetpointProgram Setting Smallest Space SpaceLimits SpecialNumber
+    SubPart Sum SyncClient TOP TcpSettings TextForm View WhileRunning WireType Word WriteCondition WriteOnly always
+    async_client_link async_serial_link async_tcp boolean choice client_link date_as datetime_as eui48 eui64 flags
+    integer integer_or integer_with ipv4 ipv6 number number_or number_with octets order_from raw raw_float
+    serial_link tcp text text_as time_as version within word word_of
     """.split(),  # noqa: SIM905 (a column of quoted words is harder to keep in order)
     key=lambda name: (not name.isupper(), name.islower(), name),
 )

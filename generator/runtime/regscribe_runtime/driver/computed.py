@@ -1,47 +1,47 @@
 """Numbers that follow from several registers of a device: a sum, a difference, a product."""
 
 from collections.abc import Awaitable
-from typing import Generic, Self, TypeVar, overload
+from typing import Self, overload
 
-from regscribe_runtime.driver.parts import AsyncPart, Part
+from regscribe_runtime.driver.parts import AsyncPart, Bound, Part
 from regscribe_runtime.operations import tasks
+from regscribe_runtime.values.conditions import ALWAYS, Cases, Condition
+from regscribe_runtime.values.scales import Range
 from regscribe_runtime.values.terms import Term
 
-P = TypeVar("P", bound=Part | AsyncPart)
 
-
-class _Bound(Generic[P]):
-    __slots__ = ("_part", "computed")
-
-    def __init__(self, computed: "Computed", part: P) -> None:
-        self.computed, self._part = computed, part
-
-
-class ComputedValue(_Bound[Part]):
+class ComputedValue(Bound["Computed", Part]):
     """A computed number of a synchronous driver."""
 
     __slots__ = ()
 
     def read(self) -> float:
-        """Read the registers in one snapshot and compute; NotDecodable if one of them has no value that counts."""
-        return self._part.run(tasks.compute(self.computed.id, self.computed.term))
+        """Read the registers in one snapshot and compute.
+
+        NotDecodable if one of them has no value that counts, OutOfRange for a number outside what is valid, NotPresent
+        while it does not exist.
+        """
+        return self._part.run(tasks.compute(self.declared))
 
 
-class AsyncComputedValue(_Bound[AsyncPart]):
+class AsyncComputedValue(Bound["Computed", AsyncPart]):
     """A computed number of an asyncio driver."""
 
     __slots__ = ()
 
     def read(self) -> Awaitable[float]:
         """As `ComputedValue.read`, awaitable."""
-        return self._part.run(tasks.compute(self.computed.id, self.computed.term))
+        return self._part.run(tasks.compute(self.declared))
 
 
 class Computed:
-    """A number that follows from registers, in engineering units; `unit` is its own."""
+    """A number that follows from registers, in engineering units; `unit` is its own.
 
-    def __init__(self, term: Term, *, unit: str = "") -> None:
-        self.term, self.unit, self.id = term, unit, ""
+    It exists only while `when` holds, and is a value only within `valid`.
+    """
+
+    def __init__(self, term: Term, *, unit: str = "", valid: Cases[Range] = (), when: Condition = ALWAYS) -> None:
+        self.term, self.unit, self.valid, self.when, self.id = term, unit, valid, when, ""
 
     def __set_name__(self, owner: type, name: str) -> None:
         self.id = name

@@ -19,6 +19,7 @@ P = TypeVar("P", bound="Part")
 A = TypeVar("A", bound="AsyncPart")
 S = ParamSpec("S")
 B = TypeVar("B", bound="Part | AsyncPart")
+D = TypeVar("D")
 
 
 class Catalogue:
@@ -246,27 +247,29 @@ class Array(Generic[P, A]):
         return found
 
 
-class _Bound(Generic[B]):
-    __slots__ = ("_part", "command")
+class Bound(Generic[D, B]):
+    """Something declared, as an attribute of a part."""
 
-    def __init__(self, command: "Command", part: B) -> None:
-        self.command, self._part = command, part
+    __slots__ = ("_part", "declared")
+
+    def __init__(self, declared: D, part: B) -> None:
+        self.declared, self._part = declared, part
 
 
-class _BoundCommand(_Bound[Part]):
+class _BoundCommand(Bound["Command", Part]):
     __slots__ = ()
 
     def __call__(self, *, confirm: bool = False) -> None:
         """Send the command; `confirm` is needed for a dangerous one (ValueRefused otherwise)."""
-        self._part.run(tasks.run(self.command, confirm=confirm))
+        self._part.run(tasks.run(self.declared, confirm=confirm))
 
 
-class _AsyncBoundCommand(_Bound[AsyncPart]):
+class _AsyncBoundCommand(Bound["Command", AsyncPart]):
     __slots__ = ()
 
     def __call__(self, *, confirm: bool = False) -> Awaitable[None]:
         """Send the command; `confirm` is needed for a dangerous one (ValueRefused otherwise)."""
-        return self._part.run(tasks.run(self.command, confirm=confirm))
+        return self._part.run(tasks.run(self.declared, confirm=confirm))
 
 
 class AnyCommand:

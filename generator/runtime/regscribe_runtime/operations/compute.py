@@ -3,38 +3,77 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from typing import Any
+from typing import Any, NoReturn, Protocol
 
-from regscribe_runtime.errors import NotDecodable, RegscribeError
+from regscribe_runtime.errors import NotDecodable, OutOfRange, RegscribeError
 from regscribe_runtime.operations.read import read_many
 from regscribe_runtime.operations.session import Operation, Session, Task
+from regscribe_runtime.registers.codec import interval_ends, outside
 from regscribe_runtime.registers.enums import Choice, SpecialNumber
-from regscribe_runtime.values.terms import Term, UnsettledError, registers_in, resolve
+from regscribe_runtime.registers.presence import absence
+from regscribe_runtime.values.conditions import Cases, Condition
+from regscribe_runtime.values.scales import Range
+from regscribe_runtime.values.terms import Ref, Term, UnsettledError, parts_of, registers_in, resolve
 
 
-def compute(name: str, term: Term) -> Task[float]:
-    """Read the registers of a term in one snapshot and compute it; `name` is for the error."""
+class Computable(Protocol):
+    """How a number follows from registers: while `when` holds, and valid within `valid`."""
+
+    id: str
+    term: Term
+    valid: Cases[Range]
+    when: Condition
+
+
+def compute(wanted: Computable) -> Task[float]:
+    """Read the registers of a term in one snapshot and compute it."""
 
     def task(session: Session) -> Operation[float]:
-        registers = [session.registers[path] for path in registers_in(term)]
-        found = yield from read_many(registers)(session)
-        state = {path: _number(name, path, value) for path, value in found.entries.items()}
-        return computed(name, term, state, session.givens)
+        paths = registers_in(wanted.term, wanted.valid, wanted.when)
+        found = yield from read_many([session.registers[path] for path in paths])(session)
+        return computed(wanted, found.entries, session.givens)
 
     return task
 
 
-def computed(name: str, term: Term, state: Mapping[str, Any], givens: Mapping[str, Any]) -> float:
-    """The number of a term; NotDecodable where it has none."""
+def computed(wanted: Computable, entries: Mapping[str, Any], givens: Mapping[str, Any]) -> float:
+    """The number of a term over values and errors by path.
+
+    NotPresent while it does not exist, NotDecodable where it has no number, OutOfRange where that is not valid.
+    """
+    values = {path: value for path, value in entries.items() if not isinstance(value, RegscribeError)}
+    errors = {path: value for path, value in entries.items() if isinstance(value, RegscribeError)}
+    gone = absence(wanted.id, wanted.when, values, givens, errors)
+    if gone:
+        raise gone
+    state = _Numbers(wanted.id, entries)
+    _check_numbers(wanted, values)
     try:
-        return float(resolve(term, state, givens))
+        amount = resolve(wanted.term, state, givens)
+        number = float(amount)
     except (UnsettledError, OverflowError) as error:
-        raise NotDecodable(name, str(error)) from None
+        raise NotDecodable(wanted.id, str(error)) from None
+    ends = interval_ends(wanted.id, wanted.valid, state, givens)
+    if ends is not None and (why := outside(ends, amount)):
+        raise OutOfRange(wanted.id, why)
+    return number
 
 
-def _number(name: str, path: str, value: Any) -> Any:
-    if isinstance(value, RegscribeError):
-        raise NotDecodable(name, f"it is computed from {path}: {value}") from value
-    if isinstance(value, Choice | SpecialNumber):
-        raise NotDecodable(name, f"it is computed from {path}, which is {value!s}")
-    return value
+class _Numbers(dict[str, Any]):
+    """The values of registers; looking up one that has none raises NotDecodable for what is computed."""
+
+    def __init__(self, name: str, entries: Mapping[str, Any]) -> None:
+        super().__init__({path: value for path, value in entries.items() if not isinstance(value, RegscribeError)})
+        self._name, self._entries = name, entries
+
+    def __missing__(self, path: str) -> NoReturn:
+        error = self._entries[path]
+        raise NotDecodable(self._name, f"it is computed from {path}: {error}") from error
+
+
+def _check_numbers(wanted: Computable, values: Mapping[str, Any]) -> None:
+    """Refuse codes and special values where a number is computed with; conditions may ask for them."""
+    for path in (part.register for part in parts_of((wanted.term, wanted.valid)) if isinstance(part, Ref)):
+        value = values.get(path)
+        if isinstance(value, Choice | SpecialNumber):
+            raise NotDecodable(wanted.id, f"it is computed from {path}, which is {value!s}")

@@ -207,12 +207,12 @@ def _scaled(register: Coded, view: View, state: State, givens: Givens) -> Conver
         return lambda wire: make(wire & mask)
     if register.value_type.coded:
         make = present_type(register, state, givens).make
-        return make if view.type.is_integer else lambda wire: make(_code(register, view, wire))
+        return make if view.type.is_integer and view.factor == 1 else lambda wire: make(_code(register, view, wire))
     slope, offset, _ = _line(register, state, givens)
     slope /= Fraction(view.factor)
     scaled = _ieee(register, view, slope, offset) if view.type.is_float else _whole(register, view, slope, offset)
     try:
-        limits = _interval_ends(register, register.valid, state, givens)
+        limits = interval_ends(register.path, register.valid, state, givens)
     except ValueNotDecodable as error:  # special values are read nevertheless
         return failing(error)
     if limits is None:
@@ -220,7 +220,7 @@ def _scaled(register: Coded, view: View, state: State, givens: Givens) -> Conver
 
     def checked(wire: Any) -> Any:
         value = scaled(wire)
-        why = _outside(limits, _exactly(view, wire) * slope + offset)
+        why = outside(limits, _exactly(view, wire) * slope + offset)
         if why:
             raise OutOfRange(register.path, why)
         return value
@@ -232,7 +232,7 @@ def _code(register: Coded, view: View, wire: float) -> int:
     """The code that a number on the wire is; NotDecodable where it is no whole number."""
     if not math.isfinite(wire):
         raise NotDecodable(register.path, f"the {view.name} view holds {wire}, which is no code")
-    code = _exactly(view, wire)
+    code = _exactly(view, wire) / Fraction(view.factor)
     if code.denominator != 1:
         raise NotDecodable(register.path, f"{rough(code)} is no whole number, and so no code")
     return code.numerator
@@ -496,22 +496,22 @@ Ends = list[tuple[Fraction | float, Fraction | float]]
 """Lowest and highest value of each interval; infinite where nothing limits."""
 
 
-def _interval_ends(register: Coded, cases: Cases[Range], state: State, givens: Givens) -> Ends | None:
-    """The limits that hold now; None where no case does."""
+def interval_ends(name: str, cases: Cases[Range], state: State, givens: Givens) -> Ends | None:
+    """The limits of the thing `name` that hold now; None where no case does."""
     limits = choose(cases, state, givens)
     if limits is None:
         return None
-    divisor = power(register.path, limits.decimals, state)
+    divisor = power(name, limits.decimals, state)
 
     def settle(bound: Limit, unlimited: float) -> Fraction | float:
         if isinstance(bound, Open):
             return unlimited
-        return Fraction(bound) / divisor if isinstance(bound, Number) else settled(register.path, bound, state, givens)
+        return Fraction(bound) / divisor if isinstance(bound, Number) else settled(name, bound, state, givens)
 
     return [(settle(low, -math.inf), settle(high, math.inf)) for low, high in limits.intervals]
 
 
-def _outside(ends: Ends, amount: Fraction) -> str:
+def outside(ends: Ends, amount: Fraction) -> str:
     """Why a value lies in none of the intervals; empty where it lies in one."""
     if any(low <= amount <= high for low, high in ends):
         return ""
@@ -521,10 +521,10 @@ def _outside(ends: Ends, amount: Fraction) -> str:
 
 def _within_limits(register: Coded, amount: Fraction, state: State, givens: Givens) -> None:
     for cases in filter(None, (register.range, register.valid)):
-        ends = _interval_ends(register, cases, state, givens)
+        ends = interval_ends(register.path, cases, state, givens)
         if ends is None and cases is register.range:
             raise ValueRefused(register.path, "no range of the manual holds as the device is configured")
-        why = _outside(ends, amount) if ends is not None else ""
+        why = outside(ends, amount) if ends is not None else ""
         if why:
             raise ValueRefused(register.path, why)
 

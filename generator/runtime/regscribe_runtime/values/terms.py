@@ -75,6 +75,26 @@ class Sum(NamedTuple):
         return sum((resolve(each, state, givens) for each in self.terms), Fraction(0))
 
 
+class Largest(NamedTuple):
+    """The largest of several terms."""
+
+    largest_of: "tuple[Term, ...]"
+
+    def number(self, state: State, givens: Givens) -> Fraction:
+        """The largest number."""
+        return max(resolve(each, state, givens) for each in self.largest_of)
+
+
+class Smallest(NamedTuple):
+    """The smallest of several terms."""
+
+    smallest_of: "tuple[Term, ...]"
+
+    def number(self, state: State, givens: Givens) -> Fraction:
+        """The smallest number."""
+        return min(resolve(each, state, givens) for each in self.smallest_of)
+
+
 class ByCase(NamedTuple):
     """The term of the first case whose condition holds."""
 
@@ -89,7 +109,7 @@ class ByCase(NamedTuple):
         return resolve(found, state, givens)
 
 
-Term = Number | Ref | GivenRef | Power | Product | Sum | ByCase
+Term = Number | Ref | GivenRef | Power | Product | Sum | Largest | Smallest | ByCase
 
 
 class UnsettledError(ValueError):
