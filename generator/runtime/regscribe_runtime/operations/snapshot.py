@@ -34,6 +34,10 @@ class Snapshot(Mapping[str, Any]):
             raise value
         return value
 
+    def __contains__(self, key: object) -> bool:
+        """Whether a register was read, with a value or without."""
+        return getattr(key, "path", key) in self._values
+
     def __iter__(self) -> Iterator[str]:
         return iter(self._values)
 
