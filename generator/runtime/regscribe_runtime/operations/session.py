@@ -5,11 +5,19 @@ from collections.abc import Callable, Generator, Iterable, Iterator, Mapping
 from types import MappingProxyType
 from typing import Any, NamedTuple, TypeVar
 
-from regscribe_runtime.errors import ExceptionAnswer, LinkLost, NoAnswer, RegscribeError, WrongAnswer
+from regscribe_runtime.errors import (
+    ExceptionAnswer,
+    LinkLost,
+    NoAnswer,
+    PartialWrite,
+    RegscribeError,
+    WrongAnswer,
+    is_lost,
+)
 from regscribe_runtime.link.links import LinkState, Retry
 from regscribe_runtime.link.timing import response_seconds, slowest
 from regscribe_runtime.operations.missing_registers import MissingRegisters
-from regscribe_runtime.operations.portions import in_portions
+from regscribe_runtime.operations.portions import portions_of
 from regscribe_runtime.planning.address_ranges import AddressRanges, ground_of, places
 from regscribe_runtime.planning.cost import Cost
 from regscribe_runtime.planning.plan import RequestLimits, Terms
@@ -278,7 +286,7 @@ class Session:
         What is more than the device takes at once (a long text) is sent in portions.
         """
         if request.quantity > self.most.get(request.function, request.quantity):
-            return (yield from in_portions(self, request))
+            return (yield from self._in_portions(request))
         asked = request
         if self.pages:
             request = yield from self._on_its_page(request)
@@ -302,6 +310,27 @@ class Session:
                     self.prepared.clear()
                 return words
             yield Pause(self._tries.pause)
+
+    def portions(self, request: Request) -> list[Request]:
+        """The requests that go out for one: several for what is longer than the device takes at once."""
+        return portions_of(request, self.most.get(request.function, request.quantity), self.registers.values())
+
+    def _in_portions(self, request: Request) -> Operation[tuple[int, ...]]:
+        """Send a request by several; PartialWrite if the device takes some of a write, and refuses the next."""
+        words: tuple[int, ...] = ()
+        for portion in self.portions(request):
+            try:
+                words += yield from self.exchange(portion)
+            except (ExceptionAnswer, PartialWrite) as error:
+                done = portion.address - request.address
+                if request.reads or not done or is_lost(error):
+                    raise
+                done += error.written if isinstance(error, PartialWrite) else 0
+                sent = request.quantity
+                raise PartialWrite(unit=self.unit, address=request.address, sent=sent, written=done) from error
+        if request.reads and self.absences.heard(request):
+            self.prepared.clear()
+        return words
 
     def _on_its_page(self, request: Request) -> Operation[Request]:
         """The request as it goes out once its page is selected."""

@@ -7,7 +7,6 @@ from contextlib import suppress
 from typing import Any
 
 from regscribe_runtime.errors import ExceptionAnswer, PartialWrite, RegscribeError, is_lost
-from regscribe_runtime.operations.portions import portions_of
 from regscribe_runtime.operations.read_back import (
     RegisterWrite,
     Target,
@@ -143,7 +142,7 @@ class Transaction:
 
     def sent(self, request: Request, paths: tuple[str, ...], fate: Fate = Fate.PLANNED) -> list[Sent]:
         """The records of a request that writes registers: more than one where it goes out in portions."""
-        each = portions_of(self.session, request)
+        each = self.session.portions(request)
         return [Sent(one.function, one.address, one.words, paths, fate=fate) for one in each]
 
     def _judge(self, batch: Batch, error: RegscribeError) -> Operation[None]:
