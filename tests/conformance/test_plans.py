@@ -69,7 +69,7 @@ class Bench(NamedTuple):
         with redirect_stdout(StringIO()) as out:
             assert run(["plan", str(self.path), "--model", "A", "--json", *one.words, *line, *remembered]) == 0
         found = json.loads(out.getvalue())["requests"]
-        return [_whole(each["function"], each["address"], each["quantity"]) for each in found]
+        return [_whole(each) for each in found]
 
     def _saw(self, one: Question, driver: Any) -> Requests:
         driver.read(*one.what)  # from now on it knows what values depend on
@@ -84,10 +84,14 @@ def _is_known(driver: Any, registers: Sequence[Any]) -> bool:
     return all(path in driver.session.memory for found in needs.values() for path in found)
 
 
-def _whole(function: int, address: int, quantity: int) -> tuple[int, int, int]:
+def _whole(told: Json) -> tuple[int, int, int]:
     """A request of a plan; a queue and an object of the identification come as a whole."""
-    bits = {24: 6, 43: 8}.get(function)
-    return (function, address >> bits << bits, 0) if bits else (function, address, quantity)
+    function, address = told["function"], told["address"]
+    if function == 20:
+        return 20, told["file"] << 16 | address, told["quantity"]
+    if function in {24, 43}:
+        return function, told["queue"] << 6 if function == 24 else address << 8, 0
+    return function, address, told["quantity"]
 
 
 def _asked(pdu: bytes) -> tuple[int, int, int]:

@@ -9,7 +9,7 @@ from operator import eq
 from regscribe.emit.words import one_line
 
 NUMBERS = frozenset({"address", "words", "default", "minimum", "maximum"})
-OBJECTS = frozenset({"values", "bits", "views"})
+OBJECTS = frozenset({"values", "bits", "views", "more"})
 WORDS = frozenset({"space", "kind", "type"})
 """Columns of a fixed vocabulary: their case never matters."""
 

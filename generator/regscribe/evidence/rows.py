@@ -12,7 +12,7 @@ from regscribe.evidence.table import Table, TableError, TableRow
 from regscribe.export.csv import rows
 from regscribe.model import Notation, RegisterMap, Space
 
-COMMAND = "command"
+NO_REGISTERS = frozenset({"command", "computed"})
 MOST_PROBLEMS = 10
 """Faults of a table that one error lists."""
 
@@ -22,6 +22,9 @@ MOST_ADDRESSES = 1_000_000
 
 SILENT = frozenset({"", "-", "\u2013", "unused", "notused", "reserved"})
 """Names, letters alone, of a row that says that there is no register."""
+
+ELSEWHERE = ("block", "page", "unit_id", "file", "queue")
+"""Columns of registers whose address alone says nothing: they are found by their id."""
 
 Spot = tuple[str, int]
 """Address space (empty: any) and wire address."""
@@ -40,8 +43,8 @@ class ComparedRow:
 
     @property
     def is_command(self) -> bool:
-        """Whether it is a command and no register."""
-        return self.cells.get("kind", "").strip() == COMMAND
+        """Whether it is a command or a computed value and no register."""
+        return self.cells.get("kind", "").strip() in NO_REGISTERS
 
     @property
     def is_silent(self) -> bool:
@@ -60,9 +63,9 @@ class ComparedRow:
 def of_map(register_map: RegisterMap) -> Iterator[ComparedRow]:
     """Yield a row for each register and command of each model, with its address in every notation, too."""
     for row in rows([register_map]):
-        space = row.space
-        spots = ((space, int(row.address)),) if row.address and not row.block and not row.page else ()
-        aliases = tuple((space, int(alias)) for alias in row.aliases.split() if not row.block and not row.page)
+        space, elsewhere = row.space, any(getattr(row, name) for name in ELSEWHERE)
+        spots = ((space, int(row.address)),) if row.address and not elsewhere else ()
+        aliases = tuple((space, int(alias)) for alias in row.aliases.split() if not elsewhere)
         printed = {
             fold(notation.name): str(spots[0][1] + notation.offset)
             for notation in register_map.notations
@@ -119,6 +122,8 @@ def _stands(cells: dict[str, str], notations: Sequence[Notation], faults: list[s
     space = cells.get("space", "").strip().casefold()
     if space not in {"", *Space}:
         faults.append(f"column space: `{space[:60]}` is none of {', '.join(Space)}")
+    if any(cells.get(name, "").strip() for name in ELSEWHERE):
+        return []
     names = ["address", *(notation.name for notation in notations)]
     filled = next((name for name in names if cells.get(fold(name), "").strip()), None)
     if filled is None:

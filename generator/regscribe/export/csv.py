@@ -4,7 +4,6 @@ import csv
 import io
 import json
 from collections.abc import Iterable, Iterator, Mapping, Sequence
-from fractions import Fraction
 from functools import partial
 from typing import NamedTuple
 
@@ -20,22 +19,27 @@ from regscribe.emit.words import (
     one_line,
     part_words,
     plain_interval,
+    term_words,
 )
+from regscribe.export.further import beginning, further
 from regscribe.model import (
     IDENTITY,
     BitField,
     Command,
+    CommandStep,
+    Computed,
     Kind,
     Model,
+    Page,
     Range,
     Register,
     RegisterMap,
+    View,
     always,
     show,
 )
 from regscribe.plugins import Option
 from regscribe.visible import cell
-from regscribe_runtime.values.wire_types import PAGE_BITS
 
 name = "csv"
 summary = "every value of every model, arrays expanded, as a table"
@@ -71,6 +75,10 @@ class Row(NamedTuple):
     block: str = ""
     page: str = ""
     exists: str = ""
+    file: str = ""
+    queue: str = ""
+    unit_id: str = ""
+    more: str = "{}"
 
 
 COLUMNS = Row._fields
@@ -91,33 +99,31 @@ def csv_text(maps: Iterable[RegisterMap]) -> str:
 
 
 def rows(maps: Iterable[RegisterMap]) -> Iterator[Row]:
-    """Yield the rows of all maps: the registers of each model (arrays expanded), then its commands."""
+    """Yield the rows of all maps: the registers of each model (arrays expanded), its commands, what is computed."""
     for register_map in maps:
         for model in register_map.models:
             for register in model.registers:
                 yield _register_row(register_map, model, register)
             for command in model.commands:
                 yield _command_row(register_map, model, command)
+            for computed in model.computed:
+                yield _computed_row(register_map, model, computed)
 
 
 def _register_row(register_map: RegisterMap, model: Model, register: Register) -> Row:
     minimum, maximum = _limits(register)
-    at, first = register.at, register.page << PAGE_BITS
-    views = {
-        one.name: {"address": one.address(at) - first, "words": one.words, "type": one.type}
-        | ({"space": one.space} if one.space is not register.base.space else {})
-        for one in register.views
-    }
+    space, page = register.base.space, model.pages[register.page - 1] if register.page else Page()
+    place = space.facts(register.address)
     return Row(
         map=register_map.id,
         model=one_line(model.name),
         id=register.path,
         name=one_line(register.name),
         symbol=one_line(register.symbol),
-        space=register.base.space.value,
-        address=str(register.address - first),
+        space=space.value,
+        address=str(place["address"]),
         words=str(register.base.words),
-        aliases=" ".join(str(alias - first) for alias in register.aliases),
+        aliases=" ".join(str(space.inside(alias)) for alias in register.aliases),
         access=register.access.value,
         kind=register.kind.value,
         type=register.base.type.value,
@@ -127,25 +133,38 @@ def _register_row(register_map: RegisterMap, model: Model, register: Register) -
         default=_default(register),
         values=_object(_values(register)),
         bits=_object({bits_words(field): _bit_label(field) for field in register.fields}),
-        views=_object(views),
+        views=_object({one.name: _view(register, one) for one in register.views}),
         scale=_scale(register),
         persistence=one_line(register.persistence),
         group=register.group,
         section=one_line(register.section),
         block=register.block,
-        page=str(register.page or ""),
+        page=", ".join(map(_selected, page.selectors, page.steps)),
         exists="" if register.when.always else one_line(condition_words(register.when, model)),
+        file=str(place.get("file", "")),
+        queue=str(place.get("queue", "")),
+        unit_id=str(page.unit or ""),
+        more=_object(further(register, model)),
     )
+
+
+def _view(register: Register, view: View) -> dict[str, object]:
+    facts = view.space.facts(view.address(register.at))
+    found: dict[str, object] = {"address": facts["address"], "words": view.words, "type": view.type}
+    if view.space is not register.base.space:
+        found |= {"space": view.space} | {key: facts[key] for key in ("file", "queue") if key in facts}
+    return found
+
+
+def _selected(path: str, step: CommandStep) -> str:
+    """What is written to select a page: `bank=5`."""
+    return f"{path}={' '.join(map(str, step.words))}"
 
 
 def _default(register: Register) -> str:
     if register.default_cases:
-        return cases_words(map_cases(register.default_cases, _beginning))
-    return "" if register.default is None else _beginning(register.default)
-
-
-def _beginning(value: Fraction | str) -> str:
-    return show(value) if isinstance(value, Fraction) else one_line(value)
+        return cases_words(map_cases(register.default_cases, beginning))
+    return "" if register.default is None else beginning(register.default)
 
 
 def _command_row(register_map: RegisterMap, model: Model, command: Command) -> Row:
@@ -153,7 +172,7 @@ def _command_row(register_map: RegisterMap, model: Model, command: Command) -> R
     first = requests[0] if requests else None
     written: dict[str, list[str]] = {}
     for step in requests:
-        written.setdefault(str(step.address), []).append(
+        written.setdefault(step.space.spelled(step.address), []).append(
             (step.argument and f"<{step.argument}>") or " ".join(map(str, step.words))
         )
     return Row(
@@ -162,7 +181,7 @@ def _command_row(register_map: RegisterMap, model: Model, command: Command) -> R
         id=command.id,
         name=one_line(command.name),
         space=first.space.value if first else "",
-        address=str(first.address) if first else "",
+        address=str(first.space.inside(first.address)) if first else "",
         words=str(sum(len(step.words) for step in requests)),
         access="w",
         kind="command",
@@ -170,6 +189,21 @@ def _command_row(register_map: RegisterMap, model: Model, command: Command) -> R
         group=command.group,
         section=one_line(command.section),
         block=first.block if first else "",
+    )
+
+
+def _computed_row(register_map: RegisterMap, model: Model, computed: Computed) -> Row:
+    return Row(
+        map=register_map.id,
+        model=one_line(model.name),
+        id=computed.id,
+        name=one_line(computed.name),
+        access="r",
+        kind="computed",
+        unit=one_line(computed.unit),
+        scale=one_line(term_words(computed.term)),
+        section=one_line(computed.section),
+        more=_object({"description": one_line(computed.description)} if computed.description else {}),
     )
 
 

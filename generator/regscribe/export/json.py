@@ -25,6 +25,7 @@ from regscribe.model import (
     Ref,
     Register,
     RegisterMap,
+    Space,
     TimingExample,
     ValueExample,
     View,
@@ -91,16 +92,31 @@ def _fields(record: Any, *besides: str) -> dict[str, Json]:  # noqa: ANN401 (any
 
 def _command(command: Command) -> Json:
     """A command with the register of each step and the space that the step writes."""
-    steps = [_fields(step) | {"register": path, "space": step.space.value} for step, path in command.named_steps]
+    steps = [
+        _fields(step)
+        | {"register": path, "space": step.space.value}
+        | _place(step.space, step.address)
+        | {"page": step.space.page(step.address)}
+        for step, path in command.named_steps
+    ]
     return _fields(command, "step_registers") | {"steps": steps}
 
 
 def _register(register: Register) -> Json:
-    return _fields(register, "at") | {"views": [_view(view, register.at) for view in register.views]}
+    aliases = [register.base.space.inside(one) for one in register.aliases]
+    views = [_view(view, register.at) for view in register.views]
+    return _fields(register, "at") | {"aliases": aliases, "views": views}
 
 
 def _view(view: View, at: int) -> Json:
-    return _fields(view, "offset", "order") | {"address": view.address(at), "word_order": _plain(view.order)}
+    place = _place(view.space, view.address(at))
+    return _fields(view, "offset", "order") | place | {"word_order": _plain(view.order)}
+
+
+def _place(space: Space, address: int) -> Json:
+    """An address in its page, file or queue, and the number of the file or queue."""
+    facts = space.facts(address)
+    return {name: facts.get(name) for name in ("address", "file", "queue")}
 
 
 def _order(order: OrderCases) -> Json:

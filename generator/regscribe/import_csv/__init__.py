@@ -13,6 +13,7 @@ from regscribe.evidence.columns import choose
 from regscribe.evidence.table import TableError
 from regscribe.evidence.table import read as read_table
 from regscribe.files import OneLine, dump
+from regscribe.import_csv.further import more
 from regscribe.import_csv.keys import KEYS, Cells
 from regscribe.model import Diagnostic, Severity, Span
 from regscribe.model.identifiers import snake
@@ -20,8 +21,11 @@ from regscribe.model.identifiers import snake
 name = "csv"
 summary = "a table of registers in the columns of the export"
 
-PASSED_OVER = frozenset({"map", "model", "id", "words", "views", "group"})
-"""Columns that follow from the place of a register, or from other columns."""
+PASSED_OVER = frozenset({"map", "model", "id", "words", "group", "unit_id", "more"})
+"""Columns that follow from the place of a register, from other columns, or are read apart."""
+
+NO_REGISTERS = {"command": "commands", "computed": "computed values"}
+"""Kinds of rows that are no registers, in words."""
 
 MOST_TEXT = 60
 """Characters of a cell that are shown."""
@@ -68,13 +72,14 @@ def _rows(data: bytes, file: str) -> list[Row]:
 def _body(rows: Sequence[Row], file: str, left: LeftOut) -> dict[str, Any]:
     """Return the map without its head: rows that differ in their model alone are one register of several models."""
     models = dict.fromkeys(map(_model, (cells for _, cells in rows)))
-    groups: dict[str, dict[str, dict[str, Any]]] = {}
-    having: dict[tuple[str, str], dict[str, None]] = {}
+    groups: dict[tuple[str, str], dict[str, dict[str, Any]]] = {}
+    having: dict[tuple[tuple[str, str], str], dict[str, None]] = {}
     for line, cells in rows:
-        if cells.get("kind") == "command":
-            left.setdefault("commands", []).append(line)
+        if cells.get("kind") in NO_REGISTERS:
+            left.setdefault(NO_REGISTERS[cells["kind"]], []).append(line)
             continue
-        group, register = cells.get("group", "") or "Registers", _register(line, cells, file, left)
+        group = cells.get("group", "") or "Registers", cells.get("unit_id", "")
+        register = _register(line, cells, file, left)
         groups.setdefault(group, {})[repr(register)] = register
         having.setdefault((group, repr(register)), {})[_model(cells)] = None
     for (group, key), some in having.items():
@@ -83,8 +88,10 @@ def _body(rows: Sequence[Row], file: str, left: LeftOut) -> dict[str, Any]:
     return {
         "models": {model: OneLine() for model in models},
         "groups": [
-            {"id": _id(group), "name": group, "registers": [OneLine(one) for one in registers.values()]}
-            for group, registers in groups.items()
+            {"id": _id(group), "name": group}
+            | ({"unit_id": int(unit)} if unit.isdecimal() else {})
+            | {"registers": [OneLine(one) for one in registers.values()]}
+            for (group, unit), registers in groups.items()
         ],
     }
 
@@ -113,4 +120,7 @@ def _register(line: int, cells: Cells, file: str, left: LeftOut) -> dict[str, An
             left.setdefault(f"{column} `{one_line(text)[:MOST_TEXT]}`", []).append(line)
         else:
             register |= keys
-    return register
+    keys, in_words = more(cells.get("more", ""))
+    for key, value in in_words.items():
+        left.setdefault(f"{key} `{one_line(str(value))[:MOST_TEXT]}`", []).append(line)
+    return register | keys

@@ -13,6 +13,8 @@ from regscribe_runtime.values.octets import KINDS
 Cells = Mapping[str, str]
 
 PLAIN_SCALE = re.compile(r"x/1(0{1,18})")
+NUMBERS = frozenset({"integer", "number", "raw"})
+BITS = frozenset({"coil", "discrete"})
 PLAIN_UNIT = re.compile(r"[^;:]+")
 """A unit under no condition."""
 
@@ -32,8 +34,8 @@ def _type(cells: Cells) -> dict[str, Any] | None:
     if wire not in list(WireType):
         return None
     kind = KINDS.get(WireType(wire))
-    if kind in MOMENTS:  # a table does not tell their layout
-        return None
+    if kind in MOMENTS:
+        return {"type": wire} if "layout" in (objects(cells.get("more", "")) or {}) else None
     length = {"length": int(cells["words"])} if kind and cells.get("words", "").isdecimal() else {}
     return {} if wire == WireType.UINT16 else {"type": wire, **length}
 
@@ -45,7 +47,10 @@ def _unit(cells: Cells) -> dict[str, Any] | None:
 def _range(cells: Cells) -> dict[str, Any] | None:
     """`a..b`, once both limits are plain numbers."""
     low, high = (number(cells.get(side, "")) for side in ("minimum", "maximum"))
-    return None if low is None or high is None else {"range": f"{show(low)}..{show(high)}"}
+    if low is None or high is None:
+        return None
+    both = f"{show(low)}..{show(high)}"
+    return {} if (objects(cells.get("more", "")) or {}).get("valid") == both else {"range": both}
 
 
 def _default(cells: Cells) -> dict[str, Any] | None:
@@ -59,7 +64,10 @@ def _default(cells: Cells) -> dict[str, Any] | None:
 
 def _values(cells: Cells) -> dict[str, Any] | None:
     """An enum, where nothing says that the codes stand beside a number."""
-    found = objects(cells["values"])
+    faults = _sentinels(cells)
+    found = {code: label for code, label in (objects(cells["values"]) or {}).items() if code not in faults}
+    if faults and not found:
+        return {}
     if not found or cells.get("minimum") or cells.get("kind", "enum") != "enum":
         return None
     codes = {number(code): label for code, label in found.items()}
@@ -67,6 +75,11 @@ def _values(cells: Cells) -> dict[str, Any] | None:
         code.numerator: str(label) for code, label in codes.items() if code is not None and code.denominator == 1
     }
     return {"enum": OneLine(whole)} if len(whole) == len(found) else None
+
+
+def _sentinels(cells: Cells) -> dict[str, Any]:
+    found = (objects(cells.get("more", "")) or {}).get("sentinels")
+    return found if isinstance(found, dict) else {}
 
 
 def _bits(cells: Cells) -> dict[str, Any] | None:
@@ -84,6 +97,24 @@ def _scale(cells: Cells) -> dict[str, Any] | None:
     return {"decimals": len(found[1])} if found else None
 
 
+def _kind(cells: Cells) -> dict[str, Any] | None:
+    kind, of_bits = cells["kind"], cells.get("space", "") in BITS
+    if (kind == "boolean" and not of_bits) or (kind in NUMBERS and of_bits):
+        return {"kind": kind}
+    told = cells["kind"] != "version" or "version" in (objects(cells.get("more", "")) or {})
+    return {} if told and cells["kind"] != "fields" else None
+
+
+def _views(cells: Cells) -> dict[str, Any] | None:
+    """Nothing, where the one view is that of the row, or the other one is what `write_at` says."""
+    apart = "write_at" in (objects(cells.get("more", "")) or {})
+    return {} if len(objects(cells["views"]) or {}) <= 1 + apart else None
+
+
+def _whole(key: str) -> Callable[[Cells], dict[str, Any] | None]:
+    return lambda cells: {key: int(cells[key])} if cells[key].isdecimal() else None
+
+
 def _aliases(cells: Cells) -> dict[str, Any] | None:
     words = re.split(r"[\s,;]+", cells["aliases"])
     return {"aliases": [int(word) for word in words]} if all(word.isdecimal() for word in words) else None
@@ -92,7 +123,7 @@ def _aliases(cells: Cells) -> dict[str, Any] | None:
 KEYS: dict[str, Callable[[Cells], dict[str, Any] | None]] = {
     "address": lambda _: {},
     "name": lambda _: {},
-    "kind": lambda cells: None if cells["kind"] in {"version", "fields"} else {},
+    "kind": _kind,
     "space": _space,
     "access": _access,
     "type": _type,
@@ -107,5 +138,8 @@ KEYS: dict[str, Callable[[Cells], dict[str, Any] | None]] = {
     "symbol": lambda cells: {"symbol": cells["symbol"]},
     "persistence": lambda cells: {"persistence": cells["persistence"]},
     "section": lambda cells: {"source": cells["section"]},
+    "views": _views,
+    "file": _whole("file"),
+    "queue": _whole("queue"),
 }
 """The keys of a register that a column says; None: it cannot be said so."""

@@ -26,7 +26,7 @@ from regscribe.model import Is as Ask
 
 ISSUE_COLUMNS = (
     "map, model, id, name, symbol, space, address, words, aliases, access, kind, type, unit, minimum, maximum, "
-    "default, values, bits, views, scale, persistence, group, section, block, page, exists"
+    "default, values, bits, views, scale, persistence, group, section, block, page, exists, file, queue, unit_id, more"
 )
 
 Only = Callable[[Register], RegisterMap]

@@ -19,6 +19,7 @@ from regscribe.visible import safe
 from regscribe_runtime import BareDevice
 from regscribe_runtime.values.blocks import bases_in
 from regscribe_runtime.values.serial_line import ADDRESSINGS, FRAMINGS
+from regscribe_runtime.values.wire_types import address_facts
 
 ARROWS = {"request": "->", "response": "<-"}
 PAIR = 2
@@ -118,7 +119,7 @@ def _plain(line: int, one: Decoded) -> dict[str, Any]:
         "unit_id": one.unit,
         "function": one.function,
         "what": one.what,
-        "address": one.address,
+        **({"address": None} if one.address is None else address_facts(one.function, one.address)),
         "exception": one.exception or None,
         "registers": [_plain_item(item) for item in one.items],
         "complaint": one.complaint or None,

@@ -94,7 +94,7 @@ def _register(register: Register[Any]) -> dict[str, Any]:
         "kind": register.kind,
         "unit": _units(register),
         "choices": list(value_text.choices(register)),
-        "address": view.address(register.at),
+        **view.space.facts(view.address(register.at)),
         "block": register.block,
         "space": view.space,
         "words": view.words,

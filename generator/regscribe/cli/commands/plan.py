@@ -23,7 +23,6 @@ from regscribe_runtime.planning.read_order import ReadOrder
 from regscribe_runtime.planning.read_places import read_places
 from regscribe_runtime.values.blocks import bases_in
 from regscribe_runtime.values.serial_line import FORMATS, SerialLine
-from regscribe_runtime.values.wire_types import WIRE, Space
 
 COLUMNS = ("FC", "ADDRESSES", "WANTED", "CARRIED", "BYTES", "MS", "APART BECAUSE", "REGISTERS")
 MOST_NAMED = 3
@@ -222,7 +221,7 @@ class _PlanReport:
             "requests": [
                 {
                     "function": one.block.function,
-                    **_address(one.block.space, one.block.address),
+                    **one.block.space.facts(one.block.address),
                     "quantity": one.block.quantity,
                     "wanted": one.wanted,
                     "bytes": one.bytes,
@@ -237,9 +236,3 @@ class _PlanReport:
             | {"bytes": found.bytes, "ms": round(found.ms, 3)},
             "one_by_one": {"requests": len(self.one_by_one.requests), "ms": round(self.one_by_one.ms, 3)},
         }
-
-
-def _address(space: Space, address: int) -> dict[str, int]:
-    """An address, and the page that it stands on, if any."""
-    page = space.page(address)
-    return {"address": address & WIRE, "page": page} if page else {"address": address}

@@ -24,6 +24,7 @@ from regscribe_runtime import BareDevice, ExceptionAnswer, LinkLost, NoAnswer, P
 from regscribe_runtime.errors import GATEWAY, LeftAt, NotApplied, NotConfigured, ReadBackDiffers, WriteUnknown
 from regscribe_runtime.link.links import Trace
 from regscribe_runtime.report import Sent
+from regscribe_runtime.values.wire_types import address_facts, spelled_address
 from regscribe_runtime.wire.capture import frames
 from regscribe_runtime.wire.requests import Request
 
@@ -120,7 +121,9 @@ def show_requests(unsent: Unsent) -> None:
     if not unsent:
         remark("nothing would be written: the device holds it already")
         return
-    rows = [(f"{one.function:02d}", str(one.address), hexadecimal(one.words)) for one in unsent]
+    rows = [
+        (f"{one.function:02d}", spelled_address(one.function, one.address), hexadecimal(one.words)) for one in unsent
+    ]
     show_table(("FUNCTION", "ADDRESS", "WORDS"), rows)
     remark("nothing was sent")
 
@@ -129,7 +132,10 @@ def plain_requests(unsent: Unsent | None) -> dict[str, Any]:
     """The member of JSON with the requests that a dry run held back; nothing where it was none."""
     if unsent is None:
         return {}
-    plain = [{"function": one.function, "address": one.address, "words": list(one.words)} for one in unsent]
+    plain = [
+        {"function": one.function, **address_facts(one.function, one.address), "words": list(one.words)}
+        for one in unsent
+    ]
     return {"requests": plain}
 
 

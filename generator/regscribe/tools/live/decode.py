@@ -5,6 +5,7 @@ from collections.abc import Iterable, Iterator, Mapping
 from contextlib import suppress
 from typing import Any, NamedTuple
 
+from regscribe.emit.words import span_words
 from regscribe.tools.live.capture import RECEIVED, SENT
 from regscribe.tools.live.givens import defaults
 from regscribe.tools.live.names import Driver, commands_of
@@ -151,8 +152,9 @@ class Decoder:
             written = " ".join(f"{word:04X}" for word in request.words)
             reads = self._action(unit, request._replace(function=READ_HOLDING))
             return f"write {written} to holding {request.into} and {reads}"
-        space, end = SPACES[request.function], request.address + request.quantity - 1
-        where = f"{space} {request.address}" + (f" to {end}" if end > request.address else "")
+        space = SPACES[request.function]
+        ends = span_words(*map(space.spelled, (request.address, request.address + request.quantity - 1)))
+        where = f"{space} {ends}"
         placed = self._places[unit].placed
         every = ((name, placed(step)) for name, one in commands_of(self.driver).items() for step in one.steps)
         commands = dict.fromkeys(name for name, step in every if _is_step(request, step))

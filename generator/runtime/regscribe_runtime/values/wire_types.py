@@ -61,11 +61,22 @@ class Space(StrEnum):
 
         `offset` is what a notation of the manual adds to it.
         """
-        part, inside = address >> self.part_bits, address & (1 << self.part_bits) - 1
-        if not self.part_bits:
-            shown = (address & WIRE) + offset
-            return f"{shown} on page {page}" if (page := self.page(address)) else str(shown)
-        return f"{part}" if self is Space.IDENTIFICATION else f"{part}:{inside}"
+        inside = self.inside(address)
+        if self in PARTED:
+            return f"{address >> self.part_bits}:{inside}"
+        return f"{inside + offset} on page {page}" if (page := self.page(address)) else str(inside + offset)
+
+    def inside(self, address: int) -> int:
+        """An address in its page, its file or its queue; of an object of the identification its number."""
+        if self is Space.IDENTIFICATION:
+            return address >> self.part_bits
+        return address & (1 << (self.part_bits or PAGE_BITS)) - 1
+
+    def facts(self, address: int) -> dict[str, int]:
+        """An address for programs: that inside, and the file, the queue or the page that it is in, by name."""
+        if self in PARTED:
+            return {"address": self.inside(address), str(self): address >> self.part_bits}
+        return {"address": self.inside(address)} | ({"page": page} if (page := self.page(address)) else {})
 
     def page(self, address: int) -> int:
         """The number of the page that an address stands on; 0: on none."""
@@ -92,10 +103,22 @@ def written_space(function: int) -> Space:
     return next((space for space in Space if function in space.write_functions), Space.HOLDING)
 
 
+PARTED = frozenset({Space.FILE, Space.QUEUE})
+"""Spaces of which an address has the number of a part."""
+
+
 def spelled_address(function: int, address: int) -> str:
     """The address of a request for people; see `Space.spelled`."""
-    space = next((one for one in Space if function in {one.read_function, *one.write_functions}), Space.HOLDING)
-    return space.spelled(address)
+    return _space_of(function).spelled(address)
+
+
+def address_facts(function: int, address: int) -> dict[str, int]:
+    """The address of a request for programs; see `Space.facts`."""
+    return _space_of(function).facts(address)
+
+
+def _space_of(function: int) -> Space:
+    return next((one for one in Space if function in {one.read_function, *one.write_functions}), Space.HOLDING)
 
 
 _FLOATS, _SIGNED = frozenset("efd"), frozenset("hiq")
