@@ -10,6 +10,7 @@ from regscribe.emit.words import (
     ROUNDING,
     cases_words,
     condition_words,
+    listed,
     map_cases,
     one_line,
     order_words,
@@ -24,7 +25,7 @@ from regscribe_runtime.values.octets import BLANK, FF, NUL, PLAIN_TEXT, TextForm
 from regscribe_runtime.values.orders import orders_of
 
 BYTES = {BLANK: "blank", NUL: "nul", FF: "ff"}
-TEXTS = ("printed", "description", "danger", "unlock", "apply", "rescales", "shadows", "stays")
+TEXTS = ("printed", "description", "danger", "unlock", "apply", "rescales", "shadows", "rereads", "stays")
 NUMBERS = ("endurance", "settle", "static", "difference")
 
 Fact = tuple[str, object]
@@ -37,7 +38,19 @@ def further(register: Register, model: Model) -> dict[str, object]:
     if register.writable:
         when, reason = register.writable
         found["writable"] = one_line(f"while {condition_words(when, model)}: {reason}")
+    if partial := _partial(register, model):
+        found["partial"] = partial
     return found | ({} if register.mandatory is None else {"mandatory": register.mandatory})
+
+
+def _partial(register: Register, model: Model) -> str:
+    """What of the value exists under conditions only, in words."""
+    cases = register.enum.cases if register.enum else ()
+    enums = [(listed(list(case.then.labels.values())), case.when) for case in cases]
+    members = [(one.label, one.when) for one in register.enum.members] if register.enum and not cases else []
+    parts = [*enums, *members, *((one.label, one.when) for one in register.fields)]
+    words = (f"{label} while {condition_words(when, model)}" for label, when in parts if not when.always)
+    return one_line("; ".join(words))
 
 
 def _transmission(register: Register) -> Iterator[Fact]:
