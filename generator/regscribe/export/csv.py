@@ -214,6 +214,7 @@ def _object(members: Mapping[str, object]) -> str:
 def _values(register: Register) -> dict[str, str]:
     """Codes with a meaning: enum members, special values, and stored numbers that are faults."""
     codes = {str(code): one_line(label) for code, label in labels_of(register.enum).items()}
+    codes |= {"0": one_line(register.none)} if register.none else {}
     codes |= {show(special.code): one_line(special.label) for special in register.specials}
     return codes | {sentinel.spelled: one_line(sentinel.label) for sentinel in register.sentinels}
 

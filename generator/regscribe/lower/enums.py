@@ -14,6 +14,8 @@ from regscribe.model import ALWAYS, BitField, Condition, Enum, Member
 MakeCondition = Callable[[Value | None, Scope], Condition]
 """What makes a condition of a `when`; those who only ask which codes and bits there are need none."""
 
+NONE = "none"
+"""The key beside the bits of a word: the label of no bit set."""
 COLUMNS, OTHER = "columns", "other"
 """The keys beside the codes of an enum: the columns of the manual's table, and the label of all other codes."""
 
@@ -89,7 +91,7 @@ def tables_of(entry: TreeNode, scope: Scope, field: str = "") -> list[Value]:
 
 def fields_of(entry: TreeNode, scope: Scope, when: MakeCondition | None = None) -> tuple[BitField, ...]:
     """The flags or fields of a register that the model has; `when` makes their conditions."""
-    found = [(node, _flag(node)) for _, node in entry.settings.items_of("flags") if scope.has(node)]
+    found = [(node, _flag(node)) for key, node in entry.settings.items_of("flags") if key != NONE and scope.has(node)]
     found += [(node, _field(node, scope, entry)) for _, node in entry.settings.items_of("fields") if scope.has(node)]
     return tuple(_conditional(field, node, scope, when) if when else field for node, field in found)
 

@@ -6,7 +6,7 @@ from fractions import Fraction
 
 from regscribe.lower.conditions import both, cases_of, condition, write_condition
 from regscribe.lower.enum_cases import enum_by_case
-from regscribe.lower.enums import fields_of
+from regscribe.lower.enums import NONE, fields_of
 from regscribe.lower.field_numbers import with_numbers
 from regscribe.lower.idle_keys import report_idle_keys
 from regscribe.lower.matchers import given_named
@@ -92,6 +92,7 @@ def register_of(entry: TreeNode, everywhere: Scope) -> Register:
         delivered_cases=deliveries,
         enum=enum,
         fields=with_numbers(fields_of(entry, scope, condition), entry, scope),
+        none=flags.line_of(NONE) if (flags := settings.child("flags")) else "",
         writable=write_condition(settings.get("writable"), scope),
         when=_existence(entry, scope),
         persistence=settings.text_of("persistence"),

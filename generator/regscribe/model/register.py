@@ -51,6 +51,7 @@ class Register:
     `symbol` is a clean reading of the manual's short code, `printed` the code as it is printed (empty: the same).
     `version_digits` is how many decimal digits a `VERSION` packs, `version_groups` how many digits stand in a group.
     In a `block` addresses count from its base, which each device tells.
+    `none` is what the manual calls a word of flags in which none is set.
     `text` is the form of a text, `layout` that of a date or a time.
     `rules` are the names of the map's view set and scale or decimals rule, by key (`views`, `scale`); drivers use them.
     """
@@ -81,6 +82,7 @@ class Register:
     delivered_cases: Cases[Fraction | str] = ()
     enum: Enum | None = None
     fields: tuple[BitField, ...] = ()
+    none: str = ""
     writable: WriteCondition | None = None
     when: Condition = ALWAYS
     persistence: str = ""

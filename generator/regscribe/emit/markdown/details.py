@@ -1,6 +1,6 @@
 """The tables below a register's facts: views, scale and range by condition, values, bits, addresses of elements."""
 
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterable, Iterator, Sequence
 from operator import attrgetter
 
 from regscribe.emit.common_values import Merged, Stated, models_by
@@ -23,6 +23,8 @@ from regscribe.model import Condition, Enum, Kind, Model, Register, View
 Rows = tuple[tuple[Md, ...], ...]
 
 _WHEN = attrgetter("when")
+MANY_BITS = 1 << 16
+"""More bits than any value has."""
 
 
 def views(context: PageContext, leaf: Leaf) -> tuple[Titled, ...]:
@@ -131,8 +133,14 @@ def bits(context: PageContext, leaf: Leaf) -> tuple[Titled, ...]:
     versions = leaf.register.versions
     pairs = [(model.name, row) for model, one in versions for row in _bit_rows(one, context.wording(model))]
     rows = _once(pairs, len(versions))
-    found = table(headers, sorted(rows, key=lambda row: int(row[0].partition("..")[0])))
+    found = table(headers, sorted(rows, key=_lowest))
     return (Titled("Bits (0 is the least significant)", found),) if found.rows else ()
+
+
+def _lowest(row: Sequence[str]) -> int:
+    """The lowest bit of a row, behind all bits for that of none."""
+    first = row[0].partition("..")[0]
+    return int(first) if first.isdecimal() else MANY_BITS
 
 
 def _bit_rows(register: Register, wording: Wording) -> Rows:
@@ -143,6 +151,8 @@ def _bit_rows(register: Register, wording: Wording) -> Rows:
         codes = ", ".join(f"{member.code} = {one_line(member.label)}" for member in members) or part_words(field)
         said = (escape(bits_words(field)), escape(one_line(field.label)), code(name), escape(codes))
         rows.append((*said, _existence(field.when, wording), prose(field.description)))
+    if register.none:
+        rows.append((md("none"), escape(one_line(register.none)), Md(), Md(), Md(), Md()))
     return tuple(rows)
 
 

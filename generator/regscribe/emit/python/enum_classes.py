@@ -180,7 +180,7 @@ def word_content(register: Register) -> Content:
         (part.id, part.label, part.low, part.high, part.enum and enum_content(part.enum), *_numeric(part))
         for part in register.fields
     )
-    return ("word", register.id, parts)
+    return ("word", register.id, parts, *([register.none] if register.none else ()))
 
 
 def _numeric(part: BitField) -> Content:
@@ -202,7 +202,7 @@ def word_key(register: Register) -> str:
         )
         for part in register.fields
     ]
-    return f"{register.kind} {register.id} {parts}"
+    return f"{register.kind} {register.id} {parts}{register.none}"
 
 
 def specials(register: Register) -> list[tuple[Fraction, str, str]]:
@@ -245,7 +245,8 @@ def _special_body(register: Register) -> list[str]:
 
 
 def _flags_body(register: Register) -> list[str]:
-    lines = ["Flags", *docstring(_about(register), 1), ""]
+    base = f"Flags, none={literal(one_line(register.none))}" if register.none else "Flags"
+    lines = [base, *docstring(_about(register), 1), ""]
     for part in register.fields:
         lines.append(f"{INDENT}{part.id.upper()} = 1 << {part.low}")
         lines += docstring(". ".join(filter(None, [one_line(part.label), one_line(part.description)])), 1)

@@ -38,7 +38,7 @@ def spell(state: DeviceState, register: Register, stored: Stored) -> str:
     """Return the plain value as text for people: `150.5 °F`, `RUN`, `alarm_1, alarm_2`."""
     plain = shown(state, register, stored)
     if isinstance(plain, list):
-        return ", ".join(plain) or "none"
+        return ", ".join(plain) or register.none or "none"
     text = f"{plain:.10g}" if isinstance(plain, float) else str(plain)
     text = text.lower() if isinstance(plain, bool) else text
     unit = choose(register.unit, state) if isinstance(plain, int | float) else ""

@@ -359,6 +359,7 @@ class DeviceState(PresentMeaning):
                 return parse(value.replace(".", ""))
         names = {each.id: self.special(register, each) for each in register.specials}
         names |= {each.id: Fraction(each.code) for each in existing_members(register, self)}
+        names |= {register.none: Fraction(0)} if register.none else {}
         return self.from_value(register, number_of(register, None, value, names))
 
     def _show(self, register: Register, image: Image) -> None:

@@ -3,7 +3,7 @@
 from collections.abc import Callable, Iterable, Mapping, Sequence
 from typing import Any, NamedTuple
 
-from regscribe.tools.live.value_text import Plain, is_number, show, text_of
+from regscribe.tools.live.value_text import Plain, as_text, is_number, show
 from regscribe_runtime import Register, RegscribeError, Snapshot
 from regscribe_runtime.errors import ValueNotDecodable
 from regscribe_runtime.operations import tasks
@@ -38,11 +38,11 @@ def readings(registers: Sequence[Register[Any]]) -> Task[tuple[RegisterReading, 
         for register in registers:
             path, unit = register.path, unit_of(register, snapshot.valid, session.givens)
             try:
-                plain = show(register, snapshot[path])
+                plain, text = show(register, snapshot[path]), as_text(register, snapshot[path])
             except RegscribeError as error:
                 found.append(RegisterReading(path, None, "", unit, error))
             else:
-                found.append(RegisterReading(path, plain, text_of(plain), unit if is_number(plain) else "", None))
+                found.append(RegisterReading(path, plain, text, unit if is_number(plain) else "", None))
         return tuple(found)
 
     return task

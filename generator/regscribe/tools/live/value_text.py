@@ -56,6 +56,8 @@ def show(register: Register[Any], value: Any) -> Plain:  # noqa: ANN401 - a valu
 
 def as_text(register: Register[Any], value: Any) -> str:  # noqa: ANN401 - as above
     """A value of use for people, without its unit: `150.5`, `RUN`, `HEATER, FAN`."""
+    if isinstance(value, Flags) and not value:
+        return type(value).label_of_none() or text_of([])
     return text_of(show(register, value))
 
 
@@ -244,9 +246,12 @@ def _flags_or_fields(register: Register[Any], plain: Plain) -> Any:  # noqa: ANN
     if bits is not None:
         return members(bits)
     value = members(0)
+    nothing = {"none", members.label_of_none().casefold()} if register.kind == "flags" else {"none"}
+    if isinstance(plain, str) and plain.strip().casefold() in nothing:
+        return value
     for part in plain if isinstance(plain, list) else str(plain).split(","):
         text = str(part).strip()
-        if not text or text.casefold() == "none":
+        if not text or text.casefold() in nothing:
             continue
         if register.kind == "flags":
             value |= _flag(register.path, members, text)

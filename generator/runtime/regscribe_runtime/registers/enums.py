@@ -12,15 +12,19 @@ from regscribe_runtime.values.numbers import Number, exact, rough
 V = TypeVar("V")
 
 
-_OTHERS: dict[tuple[str, str], str] = {}
-"""What manuals call the codes that they do not list, by the name and the module of the class."""
+_LABELS: dict[tuple[str, str], str] = {}
+"""What manuals call the codes that they do not list, or a word without a flag, by the name and module of the class."""
 
 
 class _Labelled:
-    """Takes the label of all other codes with the bases of a class."""
+    """Takes the label of all other codes, or that of no flag, with the bases of a class."""
 
-    def __init_subclass__(cls, *, other: str = "") -> None:
-        _OTHERS[cls.__qualname__, cls.__module__] = other
+    def __init_subclass__(cls, *, other: str = "", none: str = "") -> None:
+        _LABELS[cls.__qualname__, cls.__module__] = other or none
+
+
+def _label(cls: type) -> str:
+    return _LABELS.get((cls.__qualname__, cls.__module__), "")
 
 
 class Choice(_Labelled, IntEnum):
@@ -51,8 +55,7 @@ class Choice(_Labelled, IntEnum):
         """The pseudo-member of a code that is not known, or that no member has as the device is set."""
         unknown = int.__new__(cls, value)
         unknown._name_, unknown._value_ = f"UNKNOWN_{value}", value
-        others = _OTHERS.get((cls.__qualname__, cls.__module__), "")
-        unknown.label, unknown.description, unknown.known = others or f"unknown code {value}", "", False
+        unknown.label, unknown.description, unknown.known = _label(cls) or f"unknown code {value}", "", False
         return unknown
 
     def __eq__(self, other: object) -> bool:
@@ -81,8 +84,16 @@ class SpecialNumber(float, Enum):
         return member
 
 
-class Flags(IntFlag):
-    """A word of single bits; bits that the manual does not name are kept as read."""
+class Flags(_Labelled, IntFlag):
+    """A word of single bits; bits that the manual does not name are kept as read.
+
+    `none` is the manual's label for a word in which no bit is set, if it has one.
+    """
+
+    @classmethod
+    def label_of_none(cls) -> str:
+        """What the manual calls a word in which no bit is set; empty where it has no word for it."""
+        return _label(cls)
 
     @classmethod
     def named(cls) -> Self:
