@@ -29,7 +29,7 @@ DOCS_WHERE: dict[str, Callable[[Seed], bool]] = {
     "range": lambda seed: seed.access == "r",
     "range_decimals": lambda seed: seed.access == "r",
     "unit": lambda seed: seed.access == "w",
-    "type": lambda seed: seed.kind in {"flags", "fields", "version", "boolean"},
+    "type": lambda seed: seed.kind in {"flags", "fields", "version", "boolean", *["enum"] * (seed.access == "w")},
     "functions": lambda seed: seed.access == "r" or seed.type not in {"uint16", "int16", "bit"},
     "write": lambda seed: seed.type not in {"uint16", "int16", "bit"},
     "kind": lambda seed: seed.kind in {"raw", "integer", "number"},
