@@ -6,10 +6,10 @@ from regscribe.emit.common_values import Merged, merge
 from regscribe.emit.markdown.alt_text import bit_fields, structure
 from regscribe.emit.markdown.context import PageContext, by_model, conclusions, only, source
 from regscribe.emit.markdown.details import Rows, bits, by_condition, elements, titled, values, views
-from regscribe.emit.markdown.escape import Md, code, escape, join, link, md, prose
+from regscribe.emit.markdown.escape import Md, code, escape, join, lines, link, md, prose
 from regscribe.emit.markdown.page_values import PageSection, PageTable, RegisterEntry, Titled
 from regscribe.emit.markdown.process import effects
-from regscribe.emit.markdown.register_facts import KINDS, facts, indices, view_type
+from regscribe.emit.markdown.register_facts import KINDS, facts, indices, scale, specials, transmission, view_type
 from regscribe.emit.outline import Branch, Leaf, Node, lettered
 from regscribe.emit.words import LETTERS, one_line, range_words, spelled
 from regscribe.model import Array, Command, CommandStep, Enum, Group, Model, Register
@@ -198,14 +198,18 @@ def _arguments(context: PageContext, model: Model, command: Command) -> Rows:
     return tuple(
         (
             code(name),
-            md(KINDS.get(register.kind, register.kind)) if register.enum is None else md(_codes(register.enum)),
+            lines(_taken(register), specials(register, context.wording(model))),
             Md("; ".join(range_words(case.then, context.wording(model)) for case in register.range)),
             escape(", ".join(case.then for case in register.unit if case.then)),
-            escape(view_type(register.base)),
+            join("; ", (md(view_type(register.base)), transmission(context, register.base), scale(register))),
             prose(register.description),
         )
         for name, register in command.arguments
     )
+
+
+def _taken(register: Register) -> Md:
+    return md(KINDS.get(register.kind, register.kind)) if register.enum is None else md(_codes(register.enum))
 
 
 def _codes(enum: Enum) -> str:

@@ -121,7 +121,7 @@ def _reading(register: Register) -> Iterator[tuple[str, Md]]:
 
 def _value_facts(context: PageContext, model: Model, register: Register) -> Iterator[tuple[str, Md]]:
     """Yield transmission, range and form of the value; facts by condition have a table of their own."""
-    wording, limits, scale = context.wording(model), register.range, register.scale
+    wording, limits = context.wording(model), register.range
     single = len(register.views) == 1
     sent = (md(view_type(register.base)), transmission(context, register.base)) if single else ()
     yield "Transmitted as", join("; ", sent)
@@ -131,15 +131,21 @@ def _value_facts(context: PageContext, model: Model, register: Register) -> Iter
     yield "Range", Md(range_words(limits[0].then, wording) if plain else "")
     valid = cases_words(map_cases(register.valid, lambda limits: range_words(limits, wording)), wording)
     yield "Valid readings", Md(f"{valid}; anything else is a fault" if valid else "")
-    yield "Special values", _specials(register, wording)
+    yield "Special values", specials(register, wording)
     faults = [Md(sentinel_words(sentinel, wording)) for sentinel in register.sentinels]
     yield "Faults instead of a value", lines(*faults)
     yield "Default", Md(default_words(register, register.default, register.default_cases, wording))
     yield "As delivered", Md(default_words(register, register.delivered, register.delivered_cases, wording))
     yield "Unit", _unit(context, register, wording)
-    scaled = len(scale) == 1 and scale[0].then != IDENTITY
-    yield "Scale", md(code(conversion_words(scale[0].then)), ", x being the stored number") if scaled else Md()
+    yield "Scale", scale(register)
     yield "Counts", md(DIFFERENCE if register.difference else "")
+
+
+def scale(register: Register) -> Md:
+    """Return how the value follows from the stored number, if there are no cases of it."""
+    cases = register.scale
+    scaled = len(cases) == 1 and cases[0].then != IDENTITY
+    return md(code(conversion_words(cases[0].then)), ", x being the stored number") if scaled else Md()
 
 
 def _address(context: PageContext, leaf: Leaf, register: Register) -> Md:
@@ -226,7 +232,8 @@ def _kind(register: Register) -> Md:
     return md(KINDS[register.kind], other)
 
 
-def _specials(register: Register, wording: Wording) -> Md:
+def specials(register: Register, wording: Wording) -> Md:
+    """Return the special values, one a line."""
     divided = any(case.then.decimals for case in register.special_scale)
     remark = md("these codes are divided as the limits of the range are" if divided else "")
     return lines(*(Md(special_words(special, wording)) for special in register.specials), remark)

@@ -316,7 +316,8 @@ def _with_specials(register: Coded, view: View, state: State, givens: Givens, *,
     shown: dict[float | None, Any] = {}
     for code, (member, number) in specials.items():
         wire = _on_wire(view, line.stored(code))
-        shown[wire] = register.value_type.make(number) if member is None or not named else member
+        made = register.value_type.make(number) if member is None or not named else member
+        shown.setdefault(wire, made)  # of codes that a coarse float does not tell apart, the first
     shown.pop(None, None)
     return lambda wire: shown[wire] if wire in shown else scaled(wire)
 

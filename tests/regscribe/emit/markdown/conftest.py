@@ -81,6 +81,10 @@ commands:
     danger: all settings are lost
     steps: [{at: 7000, words: [85, 92]}, {wait: 2000}]
     except: [B1]
+  take:
+    name: Take
+    arguments: {level: {type: uint32, word_order: little, multiply: 2, add: 1, special: {21: none}}, part: {type: uint8, byte: high}}
+    steps: [{at: 7010, value: {argument: level}}, {at: 7012, value: {argument: part}}]
 identify: [{when: {dp: 0}, models: [A1, A2]}]
 reserved: [{at: 77..79}]
 examples:

@@ -105,6 +105,13 @@ def test_commands_show_steps_models_and_danger(section: Section) -> None:
     assert "wait 2000 ms" in found
 
 
+def test_arguments_of_a_command_say_how_they_are_sent(section: Section) -> None:
+    found = section("command-take")
+    assert "| `level` | whole number<br>21 = none |" in found
+    assert "uint32, 2 words; word order: least significant word first; `2*x + 1`, x being the stored number" in found
+    assert "uint8; the high byte of the word" in found
+
+
 def test_the_view_sets_give_address_formulas(text: str) -> None:
     assert "| `ieee` (preferred) | `8000 + 2*n` |" in text
     assert "functions 3, 16 only; address and count multiples of 2" in text
