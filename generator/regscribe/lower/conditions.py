@@ -5,7 +5,7 @@ from typing import TypeVar
 
 from regscribe.lower.matchers import given_named, test_of, test_of_given
 from regscribe.lower.node import Value
-from regscribe.lower.rules import UNKNOWN_CONDITION, WRONG_SORT
+from regscribe.lower.rules import CONDITION_IN_ITSELF, UNKNOWN_CONDITION, WRONG_SORT
 from regscribe.lower.scope import Scope
 from regscribe.lower.subject import subject_of
 from regscribe.model import ALWAYS, AnyOf, Case, Cases, Condition, Is, WriteCondition
@@ -37,9 +37,19 @@ def _named(node: Value, scope: Scope) -> Condition:
         message = f"there is no condition `{node.text()}`, but a given"
         node.report(UNKNOWN_CONDITION, message, remedy=f"write {{given: {node.text()}}}")
     found = scope.named(node, "conditions", rule=UNKNOWN_CONDITION, what="condition")
-    if found is None or not found.is_mapping:
+    if found is None or not found.is_mapping or _asks_for_itself(node, scope):
         return Condition((), name=node.text())
-    return scope.once(found.path, lambda: Condition(condition(found, scope).tests, name=node.text()))
+    inside = scope.inside(node.text())
+    return scope.once(found.path, lambda: Condition(condition(found, inside).tests, name=node.text()))
+
+
+def _asks_for_itself(node: Value, scope: Scope) -> bool:
+    if node.text() not in scope.conditions:
+        return False
+    around = (*scope.conditions[scope.conditions.index(node.text()) :], node.text())
+    remedy = "let it ask for registers"
+    node.report(CONDITION_IN_ITSELF, f"the condition asks for itself: {' -> '.join(around)}", remedy=remedy)
+    return True
 
 
 def condition_of(node: Value, scope: Scope) -> Condition:

@@ -52,6 +52,7 @@ SEVERAL_CODES = "RS0367"
 UNKNOWN_ARGUMENT = "RS0345"
 NO_PART = "RS0340"
 BAD_LAYOUT = "RS0341"
+CONDITION_IN_ITSELF = "RS0368"
 
 _NAMES = "A name must mean something, or the driver would look up what does not exist."
 
@@ -133,6 +134,7 @@ RULES: tuple[Rule, ...] = (
         "Name that depends on its case",
         "A condition compares codes; where a code has another meaning in another case, it would hold there too.",
     ),
+    Rule(CONDITION_IN_ITSELF, "Condition that asks for itself", "What it is could not be told."),
     Rule(NO_PART, "Record of no file, or value of no queue", "Its address is the file's (or queue's) and its own."),
 )
 

@@ -23,6 +23,7 @@ class Scope:
     in the same element of an array before a register elsewhere. `lenient`: what is looked up belongs to no register
     yet, so a name is good if any model and any element has it. `folded`: the viewer stands for that register of all
     elements, so a sibling in the same element is found under a path with empty brackets, `channels[].decimals`.
+    `conditions` are the names of those around.
     """
 
     map: Value
@@ -33,6 +34,7 @@ class Scope:
     viewer: TreeNode | None = None
     lenient: bool = False
     folded: bool = False
+    conditions: tuple[str, ...] = ()
     enums: dict[str, Enum] = field(default_factory=dict)
     cache: dict[object, object] = field(default_factory=dict)
 
@@ -44,6 +46,10 @@ class Scope:
     def at(self, entry: TreeNode) -> "Scope":
         """The same scope, seen from a register."""
         return replace(self, viewer=entry)
+
+    def inside(self, condition: str) -> "Scope":
+        """The same scope, in a named condition."""
+        return replace(self, conditions=(*self.conditions, condition))
 
     def has(self, node: Value) -> bool:
         """Whether a command, effect, member or field is on this model; RS0314 for names of no model."""
