@@ -48,6 +48,27 @@ def counter_of_packed(scope: RuleScope) -> Iterator[Finding]:
             yield Finding.at(counter, message, "give it `access: r`, no scale and no codes")
 
 
+@model_rule("RS0676", "Packed array too deep, or in an array with registers behind it")
+def packed_twice(scope: RuleScope) -> Iterator[Finding]:
+    """What stands behind would follow from several counts at once, which no driver works out."""
+    for outer in (one for one in scope.model.members if isinstance(one, Array)):
+        related = Related(f"`{outer.id}` is the array around it", outer.span)
+        deep = [one for one in arrays_in(outer.members) if one.packed]
+        for inner in deep if outer.packed else [one for one in deep if one not in outer.members]:
+            message = f"array `{inner.id}` is packed, and not directly in an array that is not packed"
+            yield Finding(inner.id, inner.span, message, "leave `packed` out, or take it out of its array", related)
+        for one in _behind(outer, scope) if deep else ():
+            message = f"stands at {one.address} of block {one.block}, behind array `{outer.id}` with a packed one in it"
+            yield Finding.at(one, message, "leave `packed` out, or put the register before the array", related)
+
+
+def _behind(array: Array, scope: RuleScope) -> Iterator[Register]:
+    """The registers of the block that stand behind the beginning of an array."""
+    inside = [one for one in scope.model.registers if one.array.split(".")[0] == array.id]
+    begin, block = min(one.address for one in inside), inside[0].block
+    return (one for one in scope.model.registers if one.block == block and one not in inside and one.address >= begin)
+
+
 @map_rule("RS0696", "Identification by a register of a block that a given places")
 def identity_in_block(register_map: RegisterMap, scopes: Scopes) -> Iterator[Finding]:
     """A device is identified before anybody states its givens."""
