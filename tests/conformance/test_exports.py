@@ -66,7 +66,7 @@ def _facts(register_map: RegisterMap) -> Any:
 WHEREVER = [
     seed for seed in seeds() if (seed.place, seed.space) == ("alone", "holding") and seed.type in {"uint16", "string"}
 ]
-NEEDED = frozenset({"file", "queue", "views", "layout", "byte", "rescales"})
+NEEDED = frozenset({"file", "queue", "views", "layout", "byte", "rescales", "rereads"})
 """Keys without which the maps that are tried here are wrong; the cases have them."""
 OUTPUTS: dict[str, Callable[[RegisterMap], str]] = {
     "JSON": lambda found: json_text([found]),
