@@ -31,7 +31,7 @@ from regscribe.simulate.device.device import SimulatedDevice
 from regscribe.testing.driver_checks import DriverUnderTest
 from regscribe.testing.vectors import Vectors
 from regscribe.tools.live.decode import Decoder
-from regscribe_runtime import NotPresent, SensorFault, ValueNotDecodable, ValueRefused
+from regscribe_runtime import NotPresent, OutOfRange, SensorFault, ValueNotDecodable, ValueRefused
 from regscribe_runtime.registers.octets import OctetType
 from regscribe_runtime.wire.capture import CapturedFrame
 
@@ -106,7 +106,11 @@ def said_by_driver(found: Any) -> object:  # noqa: PLR0911 (as many kinds of val
         names = {one.name.lower() for one in type(found) if one in found}
         return {"flags": names} | ({"unnamed": rest} if rest else {})
     if hasattr(found, "parts"):
-        return {"fields": {name: said_of_part(part) for name, part in found if not isinstance(part, NotPresent)}}
+        return {
+            "fields": {
+                name: said_of_part(part) for name, part in found if not isinstance(part, NotPresent | OutOfRange)
+            }
+        }
     if hasattr(found, "label"):
         return {"name": found.name}
     return found
@@ -276,7 +280,8 @@ def _said_by_reference(register: Register, value: Fraction | str, row: Json, kno
         names = {one.id for one in register.fields if int(value) >> one.low & 1}
         return {"flags": names} | ({"unnamed": int(value) & ~named} if int(value) & ~named else {})
     if "fields" in row:
-        parts = {one.id: part_value(one, int(value)) for one in register.fields if holds(one.when, known)}
+        every = [(one, part_value(one, int(value))) for one in register.fields if holds(one.when, known)]
+        parts = {one.id: part for one, part in every if isinstance(part, Sentinel) or one.reads(part)}
         return {"fields": {name: said_of_part(part) for name, part in parts.items()}}
     return value
 

@@ -8,7 +8,7 @@ import pytest
 from regscribe.simulate.device.device import SimulatedDevice
 from regscribe.tools.live.value_text import as_text, choices, parse
 from regscribe.tools.settings import backup, restore
-from regscribe_runtime import ConditionNotMet, NotPresent, ValueRefused
+from regscribe_runtime import ConditionNotMet, NotPresent, OutOfRange, ValueRefused
 
 from .matrix_watch import Wire
 from .suite import build, whole_map
@@ -34,6 +34,7 @@ PARTS: dict[str, Any] = {
             "type": "uint16",
             "fields": {"mode": {"bits": "0..3"}, "speed": {"bits": "4..7", "when": CARD}, "go": {"bit": 8}},
         },
+        {"at": 6, "name": "Level", "type": "uint16", "fields": {"of": {"bits": "0..7", "valid": "10..90"}}},
     ],
 }
 
@@ -148,6 +149,17 @@ def test_a_part_that_does_not_exist_is_neither_read_nor_replaced_and_keeps_its_b
     assert bench.device.peek_words("parts") == (0x0131,)
     with pytest.raises(ConditionNotMet, match="speed exists only while card is 1"):
         bench.driver.parts.write(0x0010)
+
+
+def test_a_part_outside_what_is_valid_is_no_value_and_is_not_written() -> None:
+    bench = Bench(level=95)
+    word = bench.driver.level.read()
+    with pytest.raises(OutOfRange, match=r"Level.of: 95 lies outside 10 to 90"):
+        _ = word.of
+    with pytest.raises(ValueError, match="lies in 10 to 90"):
+        word.replace(of=9)
+    assert as_text(bench.driver.registers["level"], word) == "rest=0x005F"
+    assert word.replace(of=90).of == 90
 
 
 def test_a_snapshot_shows_the_parts_that_exist_and_what_the_others_hold() -> None:

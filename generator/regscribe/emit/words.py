@@ -388,6 +388,7 @@ def part_words(field: BitField) -> str:
         f"{formula} {field.unit}".strip() if formula != "x" else field.unit,
         "x signed" if field.signed else "",
         span_words(show(field.range[0]), show(field.range[1])) if field.range else "",
+        f"valid {span_words(show(field.valid[0]), show(field.valid[1]))}" if field.valid else "",
         *map(sentinel_words, field.sentinels),
     ]
     return ", ".join(filter(None, parts))

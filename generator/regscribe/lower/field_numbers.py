@@ -12,7 +12,7 @@ from regscribe.lower.tree import TreeNode
 from regscribe.lower.units import unit_of
 from regscribe.model import BitField, Sentinel, show
 
-_OF_NUMBERS = ("type", "multiply", "add", "decimals", "unit", "range", "sentinels")
+_OF_NUMBERS = ("type", "multiply", "add", "decimals", "unit", "range", "valid", "sentinels")
 
 
 def with_numbers(fields: tuple[BitField, ...], entry: TreeNode, scope: Scope) -> tuple[BitField, ...]:
@@ -31,7 +31,7 @@ def number_field(field: BitField, node: Value, scope: Scope) -> BitField:
             node.mapping_of(key).report(IDLE_KEY, f"`{field.id}` has `{key}`, but it is an enum", remedy="remove it")
         return field
     digits = node.child("decimals")
-    unit, limits = unit_of(node.child("unit"), scope)[0], node.child("range")
+    unit, limits, valid = unit_of(node.child("unit"), scope)[0], node.child("range"), node.child("valid")
     found = replace(
         field,
         signed=node.text_of("type") == "signed",
@@ -39,6 +39,7 @@ def number_field(field: BitField, node: Value, scope: Scope) -> BitField:
         add=node.fraction_of("add"),
         unit=unit[0].then if unit else "",
         range=ends(limits) if limits else None,
+        valid=ends(valid) if valid else None,
         sentinels=tuple(_sentinel(each) for _, each in node.items_of("sentinels")),
     )
     _check(found, node)
@@ -62,6 +63,7 @@ def _check(field: BitField, node: Value) -> None:
         message = f"`{field.id}` has sentinel {outside[0]}, outside the {least} to {most} of its bits"
         node.mapping_of("sentinels").report(BAD_BITS, message, remedy="correct the sentinel, the bits or the `type`")
     reach = sorted(end * field.multiply + field.add for end in (least, most))
-    if field.range and not (reach[0] <= field.range[0] and field.range[1] <= reach[1]):
-        message = f"`{field.id}` has a range beyond the {show(reach[0])} to {show(reach[1])} of its bits"
-        node.mapping_of("range").report(BAD_BITS, message, remedy="correct the range, the bits or the scale")
+    for key, limits in (("range", field.range), ("valid", field.valid)):
+        if limits and not (reach[0] <= limits[0] and limits[1] <= reach[1]):
+            message = f"`{field.id}` has `{key}` beyond the {show(reach[0])} to {show(reach[1])} of its bits"
+            node.mapping_of(key).report(BAD_BITS, message, remedy="correct the limits, the bits or the scale")

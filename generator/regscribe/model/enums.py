@@ -88,8 +88,9 @@ class BitField:
     """Bits `low` to `high` (0 is the least significant) of a word: one flag, a number or an enum.
 
     The number of a part is `multiply` times that in its bits (in two's complement if `signed`), and `add`; `range` is
-    what may be written, `sentinels` numbers in the bits that report faults. It exists only while `when` holds.
-    `follows`: the device sets a flag where this holds, and clears it where not (None: it does neither by itself).
+    what may be written, `valid` what a reading must lie in, `sentinels` numbers in the bits that report faults. It
+    exists only while `when` holds. `follows`: the device sets a flag where this holds, and clears it where not (None:
+    it does neither by itself).
     """
 
     id: str
@@ -104,6 +105,7 @@ class BitField:
     add: Fraction = Fraction(0)
     unit: str = ""
     range: tuple[Fraction, Fraction] | None = None
+    valid: tuple[Fraction, Fraction] | None = None
     sentinels: tuple[Sentinel, ...] = ()
     when: Condition = ALWAYS
 
@@ -115,7 +117,11 @@ class BitField:
     @property
     def is_number(self) -> bool:
         """Whether more is said of its number than the bits."""
-        return self.is_scaled or self.range is not None or bool(self.sentinels)
+        return self.is_scaled or bool(self.range or self.valid or self.sentinels)
+
+    def reads(self, value: Fraction) -> bool:
+        """Whether a number of the part is a value, and not one that it never has while all is well."""
+        return self.valid is None or self.valid[0] <= value <= self.valid[1]
 
     @property
     def width(self) -> int:

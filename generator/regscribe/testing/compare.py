@@ -81,16 +81,20 @@ def _value(where: str, trial: Trial, found: Any, vector: Json, expected: object)
             yield from differs(where, name, value, part)
     for name, fault in vector.get("part_faults", {}).items():
         yield from differs(where, name, _fault_of(found, name), fault)
+    for name in vector.get("parts_out_of_range", ()):
+        yield from differs(where, name, _fault_of(found, name), OutOfRange.__name__)
     if isinstance(found, Word):
         yield from differs(where, "absent", sorted(found.absent), sorted(vector.get("absent", ())))
 
 
 def _fault_of(found: object, name: str) -> str:
-    """The fault that a part of a word reports."""
+    """The fault that a part of a word reports, or that its number is out of range."""
     try:
         return f"the value {getattr(found, name, None)!r}"
     except SensorFault as fault:
         return fault.fault
+    except OutOfRange:
+        return OutOfRange.__name__
 
 
 def _named(where: str, key: str, found: object, name: str, members: Iterable[Json]) -> Iterator[str]:

@@ -151,6 +151,7 @@ def _number_part(part: BitField) -> Call:
         add=exact(part.add) if part.add else None,
         limits=expression(part.range) if part.range else None,
         faults=expression(faults) if faults else None,
+        valid=expression(part.valid) if part.valid else None,
     )
 
 
@@ -185,7 +186,7 @@ def word_content(register: Register) -> Content:
 
 def _numeric(part: BitField) -> Content:
     """What tells the number of a part from another's."""
-    return (part.signed, part.multiply, part.add, part.range, part.sentinels) if part.is_number else ()
+    return (part.signed, part.multiply, part.add, part.range, part.valid, part.sentinels) if part.is_number else ()
 
 
 def word_key(register: Register) -> str:

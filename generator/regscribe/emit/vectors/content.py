@@ -101,8 +101,11 @@ def _parts(register: Register, value: int, known: Surroundings) -> Json:
     parts = {bits.id: part_value(bits, value) for bits in register.fields if holds(bits.when, known)}
     absent = [bits.id for bits in register.fields if bits.id not in parts]
     faults = {name: part.id for name, part in parts.items() if isinstance(part, Sentinel)}
-    numbers = {name: show(part) for name, part in parts.items() if isinstance(part, Fraction)}
-    return {"fields": numbers} | ({"part_faults": faults} if faults else {}) | ({"absent": absent} if absent else {})
+    amounts = {name: part for name, part in parts.items() if isinstance(part, Fraction)}
+    outside = [bits.id for bits in register.fields if bits.id in amounts and not bits.reads(amounts[bits.id])]
+    numbers = {name: show(part) for name, part in amounts.items() if name not in outside}
+    besides = {"part_faults": faults, "parts_out_of_range": outside, "absent": absent}
+    return {"fields": numbers} | {key: found for key, found in besides.items() if found}
 
 
 def _writes(register: Register, view: View, scale: Scale | None, situation: Situation) -> Json:

@@ -183,7 +183,7 @@ class PresentMeaning(ABC):
             return False
         if not all(_is_member(field.enum, field_value(value, field)) for field in register.fields if field.enum):
             return False
-        if not all(_in_part(field, int(value)) for field in register.fields if field.range):
+        if not all(_in_part(field, int(value)) for field in register.fields if field.range or field.valid):
             return False
         if any(self.special(register, special) == value for special in register.specials):
             return True
@@ -203,7 +203,9 @@ class PresentMeaning(ABC):
 
 def _in_part(field: BitField, word: int) -> bool:
     value, limits = part_value(field, word), field.range
-    return limits is None or not isinstance(value, Fraction) or limits[0] <= value <= limits[1]
+    if not isinstance(value, Fraction):
+        return True
+    return (limits is None or limits[0] <= value <= limits[1]) and field.reads(value)
 
 
 def _is_member(enum: Enum | None, value: Fraction) -> bool:

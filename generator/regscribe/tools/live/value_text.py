@@ -14,6 +14,7 @@ from regscribe_runtime import (
     Flags,
     NotPresent,
     NumberField,
+    OutOfRange,
     Register,
     SensorFault,
     SpecialNumber,
@@ -132,7 +133,7 @@ def _qualified(member: Any) -> str:  # noqa: ANN401 - as above
 def _show_parts(word: Word) -> list[str]:
     rest, shown = int(word), []
     for name, value in word:
-        if isinstance(value, NotPresent):  # its bits, if any are set, are among the rest
+        if isinstance(value, NotPresent | OutOfRange):  # its bits, if any are set, are among the rest
             continue
         shown.append(f"{name}={_part_text(value)}")
         part = vars(type(word))[name]

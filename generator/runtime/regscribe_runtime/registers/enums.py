@@ -6,7 +6,7 @@ from fractions import Fraction
 from types import MappingProxyType
 from typing import Any, ClassVar, Generic, Self, TypeVar, overload
 
-from regscribe_runtime.errors import ConditionNotMet, NotPresent, SensorFault
+from regscribe_runtime.errors import ConditionNotMet, NotPresent, OutOfRange, SensorFault
 from regscribe_runtime.values.numbers import Number, exact, rough
 
 V = TypeVar("V")
@@ -152,7 +152,8 @@ class Bit(Field[bool]):
 class NumberField(Field[V]):
     """Bits that spell a number: value = `multiply` x number + `add`; a `signed` one is in two's complement.
 
-    `limits` are what may be written, as values; `faults` numbers that report faults: both ends, id and label.
+    `limits` are what may be written, as values, `valid` what a reading must lie in; `faults` are numbers that report
+    faults: both ends, id and label.
     """
 
     def __init__(  # noqa: PLR0913 (a number has this many properties; most are keywords)
@@ -167,20 +168,25 @@ class NumberField(Field[V]):
         add: Number = 0,
         limits: tuple[Number, Number] | None = None,
         faults: tuple[tuple[Number, Number, str, str], ...] = (),
+        valid: tuple[Number, Number] | None = None,
     ) -> None:
         super().__init__(low, high, kind, label)
         self.signed, self.multiply, self.add, self.limits, self.faults = signed, multiply, add, limits, faults
+        self.valid = valid
 
     def of(self, code: int) -> V:
-        """The value in the word `code`; SensorFault for a number that reports a fault."""
+        """The value in the word `code`; SensorFault for a fault, OutOfRange for what is not valid."""
         size = 1 << self.high - self.low + 1
         number = code >> self.low & size - 1
         number -= size if self.signed and number >= size >> 1 else 0
         for low, high, fault, label in self.faults:
             if low <= number <= high:
                 raise SensorFault(self.name, fault, label)
+        amount = Fraction(number) * self.multiply + self.add
+        if self.valid and not self.valid[0] <= amount <= self.valid[1]:
+            raise OutOfRange(self.name, f"{rough(amount)} lies outside {_span(*self.valid)}")
         kind: Any = self.kind
-        value: V = kind(Fraction(number) * self.multiply + self.add)
+        value: V = kind(amount)
         return value
 
     def code_of(self, value: float) -> int:
@@ -189,14 +195,19 @@ class NumberField(Field[V]):
         number = (amount - self.add) / Fraction(self.multiply)
         size = 1 << self.high - self.low + 1
         least = -(size >> 1) if self.signed else 0
-        low, high = self.limits or (amount, amount)
-        fits = number.denominator == 1 and least <= number < least + size and low <= amount <= high
+        spans = [one for one in (self.limits, self.valid) if one]
+        fits = number.denominator == 1 and least <= number < least + size
+        fits = fits and all(low <= amount <= high for low, high in spans)
         if not fits or any(first <= number <= last for first, last, *_ in self.faults):
-            limits = f" and lies in {rough(Fraction(low))} to {rough(Fraction(high))}" if self.limits else ""
+            limits = "".join(f" and lies in {_span(*one)}" for one in spans)
             steps = f"steps of {rough(Fraction(self.multiply))} that {size.bit_length() - 1} bits hold"
             message = f"{self.name} is {value!r}, which is none of its {steps}{limits}"
             raise ValueError(message)
         return number.numerator & size - 1
+
+
+def _span(low: Number, high: Number) -> str:
+    return f"{rough(Fraction(low))} to {rough(Fraction(high))}"
 
 
 class Word(int):
@@ -251,7 +262,7 @@ class Word(int):
     def _part(self, name: str) -> Any:
         try:
             return getattr(self, name)
-        except (SensorFault, NotPresent) as error:
+        except (SensorFault, OutOfRange, NotPresent) as error:
             return error
 
     def __repr__(self) -> str:
