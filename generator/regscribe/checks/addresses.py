@@ -182,8 +182,8 @@ def _apart(one: Condition, other: Condition, scope: RuleScope) -> bool:
 
 def _advice(one: Register, other: Register) -> str:
     if one.when.always and other.when.always:
-        twice = one.address == other.address and other.access is Access.READ and "." not in one.path
-        again = f", or say `rereads: {one.path}`" if twice else ""
+        twice = one.address == other.address and one.base.words >= other.base.words and other.access is Access.READ
+        again = f", or say `rereads: {one.path}`" if twice and "." not in one.path else ""
         return f"correct `at`, the type, the array's stride or (if one is read and one written) `access`{again}"
     return "give both a `when` such that they never hold together, or correct `at`"
 
