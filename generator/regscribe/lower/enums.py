@@ -45,6 +45,7 @@ def enum_at(table: Value, scope: Scope, name: str, when: MakeCondition | None = 
         here = scope.has(node)
         label = label_of(node)
         if here and label:
+            _check_valid(node)
             name_of_code = identifier_of(node, label).upper()
             description, cells = node.text_of("description"), node.texts_of("cells")
             exists = when(node.child("when"), scope) if when else ALWAYS
@@ -60,6 +61,14 @@ def enum_at(table: Value, scope: Scope, name: str, when: MakeCondition | None = 
         columns=columns,
         other=table.line_of(OTHER),
     )
+
+
+def _check_valid(node: Value) -> None:
+    """Report what calls a code invalid that each model has as a member."""
+    invalid = node.child("invalid")
+    if invalid and not node.child("models"):
+        message = f"`invalid` has no effect: with its label, {node.key} is a member on every model"
+        invalid.report(IDLE_KEY, message, remedy="remove the label, or name in `models` those that have it")
 
 
 def _codes(table: Value) -> list[Value]:

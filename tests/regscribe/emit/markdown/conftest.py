@@ -83,7 +83,9 @@ commands:
     except: [B1]
   take:
     name: Take
-    arguments: {level: {type: uint32, word_order: little, multiply: 2, add: 1, special: {21: none}}, part: {type: uint8, byte: high}}
+    arguments:
+      level: {type: uint32, word_order: little, multiply: 2, add: 1, special: {21: none}}
+      part: {type: uint8, byte: high}
     steps: [{at: 7010, value: {argument: level}}, {at: 7012, value: {argument: part}}]
 identify: [{when: {dp: 0}, models: [A1, A2]}]
 reserved: [{at: 77..79}]
