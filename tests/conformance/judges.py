@@ -210,6 +210,8 @@ class Present(Mapping[str, Fraction]):
             owner, _, name = path.rpartition(".")
             register = self._model.register(owner)
             field = next(one for one in register.fields if one.id == name)
+        if not holds(register.when, self.known):
+            return None, field
         view = register.preferred
         words = self._memory.get(view.space.value, view.address(register.at), view.words)
         value = decode(register, view, tuple(words), self.known).value

@@ -22,8 +22,8 @@ LIMITS |= {"mod10k_2": (0, 99999999), "mod10k_3": (0, 10**12 - 1)}
 LIMITS |= {"signmag16": (-32767, 32767), "signmag32": (1 - 2**31, 2**31 - 1)}
 LIMITS |= {"q15": (-1, 0.5), "q8.8": (-128, 127.5), "uq8.8": (0, 255), "q16.16": (-32768, 0.25)}
 ONE_WORD = ("t16", "d16", "g16", "t8", "q15", "q8.8", "string")
-STEP, ELEMENT, OUTER, VIEW, MOST = 8, 80, 200, 1000, 3
-"""Addresses from one register, element, outer element and view to the next; the most of the registers that depend."""
+STEP, ELEMENT, OUTER, VIEW, ALIAS, MOST = 8, 80, 200, 1000, 5000, 3
+"""Addresses from one register, element, outer element, view and place to the next; the most that depend."""
 
 FUZZ = int(os.environ.get("FUZZ_MAPS", "10000"))
 """How many maps `make fuzz` draws; about three of four are sound."""
@@ -70,6 +70,14 @@ DIGITS: tuple[Json, ...] = (
     {"multiply": 2},
 )
 ORDERS: tuple[Json, ...] = ({"range": "0..1"}, {"enum": {0: "big", 1: "little"}}, {"space": "coil"}, {"add": -7})
+COUNTS: tuple[Json, ...] = (
+    {"access": "r"},
+    {"access": "r"},
+    {"range": "0..2"},
+    {"type": "uint8"},
+    {"type": "int16"},
+    {"sentinels": {65535: "none"}},
+)
 BOUNDS: tuple[Json, ...] = ({}, {"type": "int16", "decimals": 1}, {"type": "float32"}, {"decimals": "digits"})
 
 
@@ -335,18 +343,28 @@ def _register(draw: Draw, sel: Decider, number: int) -> tuple[Json, Json]:
         keys[_of(draw, "default", "default", "delivered")] = _default(draw, keys)
     if keys["access"] != "r" and _maybe(draw, 6):
         keys["writable"] = {"when": _condition(draw, sel), "reason": "only then"}
+    if _maybe(draw, 6):
+        keys["when"] = _condition(draw, sel)
+    if _maybe(draw, 6):
+        keys["twice"] = True
     return {"at": 0, "name": name.upper()} | keys, tables
 
 
 def _deciders(draw: Draw, sel: Decider) -> list[Json]:
     """The registers that decide, of which each may be of many shapes."""
     shapes = {"sel": sel.keys, "dig": _of(draw, *DIGITS), "order": _of(draw, *ORDERS)}
-    shapes |= {"low": _of(draw, *BOUNDS), "high": _of(draw, *BOUNDS)}
+    shapes |= {"low": _of(draw, *BOUNDS), "high": _of(draw, *BOUNDS), "count": _of(draw, *COUNTS)}
     return [{"at": 0, "name": name.title()} | keys for name, keys in shapes.items()]
 
 
-def _array(name: str, stride: int, registers: list[Json]) -> Json:
-    return {"id": name, "name": name, "repeat": "1..2", "stride": stride, "registers": registers}
+def _array(name: str, stride: int, registers: list[Json], repeat: Any = "1..2") -> Json:
+    return {"id": name, "name": name, "repeat": repeat, "stride": stride, "registers": registers}
+
+
+def _repeat(draw: Draw) -> Any:
+    """Both elements, or as many as a register says; the others then follow without a gap, or stay where they are."""
+    counted: Json = {"from": 1, "to": "count", "most": 2}
+    return _of(draw, "1..2", "1..2", counted, counted | {"packed": True})
 
 
 def _placed(draw: Draw, deciders: list[Json], registers: list[Json]) -> list[Json]:
@@ -356,13 +374,24 @@ def _placed(draw: Draw, deciders: list[Json], registers: list[Json]) -> list[Jso
         one["at"] = STEP * number
         if "write" in one:
             one["write"]["at"] = one["at"] + VIEW * MOST
+        if one.pop("twice", False):
+            one["aliases"] = [one["at"] + ALIAS]
     if place == "alone":
         return deciders + registers
     within = deciders + registers if inside else registers
-    rows = [_array("rows", ELEMENT, within)]
+    rows = [_array("rows", ELEMENT, within, "1..2" if inside else _repeat(draw))]
     if place == "nested":
         rows = [_array("parts", OUTER, rows)]
     return rows if inside else deciders + rows
+
+
+def steady(node: Any) -> Any:
+    """Registers of which each exists always, at one address."""
+    if isinstance(node, list):
+        return [steady(one) for one in node]
+    more = {"repeat": "1..2"} if isinstance(node.get("repeat"), dict) else {}
+    inner = {key: steady(node[key]) for key in node.keys() & {"registers"}}
+    return {key: value for key, value in node.items() if key not in {"when", "aliases"}} | inner | more
 
 
 @st.composite

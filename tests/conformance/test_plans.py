@@ -19,7 +19,7 @@ from regscribe.emit import python
 from regscribe_runtime.operations.prepared_read import dependencies
 
 from .matrix_watch import Wire
-from .strategies import FUZZ, STEADY, maps
+from .strategies import FUZZ, STEADY, maps, steady
 from .suite import FUNCTIONS, Built, Case, Json, build, cases, diagnose, errors_of, module_of, whole_map, words_of
 from .trial import Trial
 from .wire import Memory, Server
@@ -39,7 +39,10 @@ PROTOCOLS = st.fixed_dictionaries(
     },
 )
 """What a device accepts, and what decides how its registers are joined in requests."""
-WHOLE = st.builds(lambda parts, protocol: parts | {"protocol": protocol}, maps(), PROTOCOLS)
+WHOLE = st.builds(
+    lambda parts, protocol: parts | {"protocol": protocol, "registers": steady(parts["registers"])}, maps(), PROTOCOLS
+)
+"""Of registers that exist always: without `--with` the command cannot know what a driver finds."""
 
 
 class Question(NamedTuple):

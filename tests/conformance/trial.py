@@ -29,7 +29,7 @@ from regscribe.reference import (
 from regscribe.simulate.device import codec as simulated_codec
 from regscribe.simulate.device.device import SimulatedDevice
 from regscribe.testing.driver_checks import CHECKS
-from regscribe_runtime import ExceptionAnswer, ValueNotDecodable, ValueRefused
+from regscribe_runtime import ExceptionAnswer, NotPresent, ValueNotDecodable, ValueRefused
 from regscribe_runtime.operations.write_request import condition_needs
 from regscribe_runtime.registers.octets import OctetType
 
@@ -42,6 +42,8 @@ from .wire import Memory
 Value = Fraction | str | Special
 """What is written: a number of use, a text, or a special value by its name."""
 EXCEPTION = 0x80
+ABSENT = {"absent": True}
+"""What a register is that does not exist now."""
 LIKELY = 0.8
 """How often a register holds what one is likely to hold; else anything."""
 FEW = 8
@@ -107,6 +109,9 @@ class Trial:
             shown = self.device.peek_words(register.path, each.name)
             self.memory.put(each.space.value, each.address(register.at), list(shown))
         self.memory.put(view.space.value, view.address(register.at), list(words))
+        base = register.base
+        for alias in register.aliases:
+            self.memory.put(base.space.value, alias, self.memory.get(base.space.value, register.address, base.words))
 
     def _stored(self, register: Register, view: View, words: Words) -> Fraction | NotANumber | str | None:
         """What a device holds whose view shows the words; None for words that nothing stored is shown by."""
@@ -158,10 +163,16 @@ class Trial:
             device.session.forget()
             for path, value in device.read().entries.items():
                 register = self.built.map.models[0].register(path)
-                found = judges.said_by_error(value, path) if isinstance(value, ValueNotDecodable) else number_of(value)
+                found = self._entry(path, value)
                 expected = self._reading(register, register.read_view, memory)
                 if not same(found, expected) and not any(same(found, one) for one in self._elsewhere(register, memory)):
                     yield f"{path} among all: driver {found!r}, reference {expected!r}"
+
+    @staticmethod
+    def _entry(path: str, value: Any) -> object:
+        if isinstance(value, NotPresent):
+            return ABSENT
+        return judges.said_by_error(value, path) if isinstance(value, ValueNotDecodable) else number_of(value)
 
     def _elsewhere(self, register: Register, memory: Any) -> Iterator[object]:
         """What views of the same type and factor say: the planner may take any of them."""
@@ -193,10 +204,14 @@ class Trial:
             return number_of(judges.attribute(device, register.path).read(view=view.name))
         except ValueNotDecodable as error:
             return judges.said_by_error(error, register.path)
+        except NotPresent:
+            return ABSENT
 
     def _reading(self, register: Register, view: View, memory: Any) -> object:
-        words = tuple(memory.get(view.space.value, view.address(register.at), view.words))
         try:
+            if not holds(register.when, self._known(memory)):
+                return ABSENT
+            words = tuple(memory.get(view.space.value, view.address(register.at), view.words))
             return said(decode(register, view, words, self._known(memory)))
         except UnknownValueError:
             return {"no value": True}
@@ -207,7 +222,7 @@ class Trial:
     def _shown(self, register: Register, view: View, words: Words) -> Iterator[str]:
         """A simulated device that took words in a view shows in each view what the stored number is there."""
         stored = self._stored(register, view, words)
-        if stored is None or isinstance(stored, str):
+        if stored is None or isinstance(stored, str) or self._reading(register, view, self.asked) == ABSENT:
             return
         for other in register.views:
             try:
@@ -237,7 +252,7 @@ class Trial:
         try:
             if isinstance(value, Special):
                 value = special_value(register, value, known) or Fraction(0)
-            if register.writable is not None and not holds(register.writable.when, known):
+            if not _takes(register, known):
                 return judges.REFUSED
             return list(encode(register, view, value, known))
         except (RefusedError, UnknownValueError):
@@ -254,7 +269,7 @@ class Trial:
             log.clear()
             try:
                 judges.attribute(device, register.path).write(given, view=view.name, verify=False)
-            except (ValueRefused, ValueNotDecodable):
+            except (ValueRefused, ValueNotDecodable, NotPresent):
                 found: object = judges.REFUSED
             except ExceptionAnswer as error:
                 found = f"the device refuses: {error}"
@@ -282,7 +297,7 @@ class Trial:
             return
         before = self.device.state.stored(register.path)
         answer = self.device.handle(_request(register, view, words))
-        shown = judges.ask(self.device, register, view)
+        shown = judges.ask(self.device, register, view) if expected else ()
         self.device.state.store(register.path, before)
         assert answer is not None
         if (answer[0] < EXCEPTION) is not expected:
@@ -294,7 +309,7 @@ class Trial:
         """Whether the reference writes just these words for their value; None where the map leaves it to the device."""
         known = self._known(self.asked)
         try:
-            if register.writable is not None and not holds(register.writable.when, known):
+            if not _takes(register, known):
                 return False
             reading = decode(register, view, words, known)
             if reading.meaning is not Meaning.VALUE or reading.value is None:
@@ -304,6 +319,11 @@ class Trial:
             return False if refused.reason in {RefusalReason.RANGE, RefusalReason.MEMBER} else None
         except UnknownValueError:
             return None
+
+
+def _takes(register: Register, known: Surroundings) -> bool:
+    """Whether it is there now, and can be written now."""
+    return holds(register.when, known) and (register.writable is None or holds(register.writable.when, known))
 
 
 def _given(declared: Any, view: View, value: Value) -> Any:
