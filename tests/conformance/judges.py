@@ -36,6 +36,7 @@ from regscribe_runtime.registers.octets import OctetType
 from regscribe_runtime.wire.capture import CapturedFrame
 
 from .suite import Built, Json, words_of
+from .wire import LONG
 
 READ_FUNCTIONS = {
     "coil": 1,
@@ -46,6 +47,7 @@ READ_FUNCTIONS = {
     "file": 20,
     "queue": 24,
     "identification": 43,
+    "enron": 3,
 }
 _ELEMENT = re.compile(r"(\w+)\[(\d+)\]")
 
@@ -352,6 +354,7 @@ def simulated(built: Built, held: Mapping[str, Mapping[int, str]]) -> SimulatedD
 
 def prime(device: SimulatedDevice, space: str, address: int, words: list[int]) -> None:
     """Let a device hold words at the base address of a register, whatever it would take from a master."""
+    address += LONG + address if space == "enron" and address < LONG else 0
     for register in device.model.registers:
         for view in register.views:
             if (view.space.value, view.address(register.at)) == (space, address) and view.words <= len(words):
@@ -391,6 +394,8 @@ def _asked(function: int, address: int, count: int) -> bytes:
         return bytes((43, 14, 4, address >> 8))
     if function == 24:
         return struct.pack(">BH", 24, address >> 6)
+    if address >= LONG:
+        address, count = (address - LONG) // 2, count // 2
     return struct.pack(">BHH", function, address, count)
 
 

@@ -38,6 +38,11 @@ class Case(NamedTuple):
     def __repr__(self) -> str:
         return self.name
 
+    @property
+    def is_long(self) -> bool:
+        """Whether its registers have 32 bits."""
+        return "enron" in str(self.map)
+
 
 class Built(NamedTuple):
     """A case's map, compiled, its registers where the device has them, and its driver; `bases` of its blocks.

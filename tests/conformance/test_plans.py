@@ -196,6 +196,7 @@ def test_the_plan_of_a_case_is_what_its_driver_sends(case: Case, server: Server,
     device = build(whole_map(case.map)).module.CaseA
     chance = random.Random(case.name)  # noqa: S311 (found again by its name)
     server.memory.clear()
+    server.memory.long = case.is_long
     for space, cells in case.holds.items():
         for address, held in cells.items():
             server.memory.put(space, int(address), words_of(held))

@@ -9,10 +9,14 @@ READS = {1: "coil", 2: "discrete", 3: "holding", 4: "input", 23: "holding"}
 WRITES = {5: "coil", 6: "holding", 15: "coil", 16: "holding"}
 BITS = frozenset({"coil", "discrete"})
 ON = 0xFF00
+LONG = 1 << 40
 
 
 class Memory:
-    """What the addresses of each space hold (0 where nothing was put), and the requests that came: PDUs in order."""
+    """What the addresses of each space hold (0 where nothing was put), and the requests that came: PDUs in order.
+
+    Where it is `long`, registers have 32 bits, of space `enron`: two words each, from LONG + twice the address on.
+    """
 
     def __init__(self) -> None:
         self.clear()
@@ -21,14 +25,17 @@ class Memory:
         """Forget everything."""
         self.cells: dict[str, dict[int, int]] = defaultdict(dict)
         self.log: list[bytes] = []
+        self.long = False
 
     def put(self, space: str, address: int, words: list[int]) -> None:
         """Set words (or bits) from an address on."""
-        self.cells[space].update({address + place: word for place, word in enumerate(words)})
+        start = _inside(space, address)
+        self.cells[space].update({start + place: word for place, word in enumerate(words)})
 
     def get(self, space: str, address: int, count: int) -> list[int]:
         """The words (or bits) from an address on."""
-        return [self.cells[space].get(at, 0) for at in range(address, address + count)]
+        start = _inside(space, address)
+        return [self.cells[space].get(at, 0) for at in range(start, start + count)]
 
     def answer(self, pdu: bytes) -> bytes:
         """The answer to a request."""
@@ -36,7 +43,9 @@ class Memory:
         function = pdu[0]
         if function == 7:
             return bytes([7, self.get("status", 0, 1)[0]])
-        if special := {20: self._records, 21: self._records, 24: self._queue, 43: self._object}.get(function):
+        forms = {20: self._records, 21: self._records, 24: self._queue, 43: self._object}
+        forms |= dict.fromkeys((3, 6, 16), self._long) if self.long else {}
+        if special := forms.get(function):
             return special(pdu)
         address, number = struct.unpack(">HH", pdu[1:5])
         if function == 23:
@@ -56,6 +65,17 @@ class Memory:
         else:
             return bytes([function | 0x80, 1])
         return pdu[:5]
+
+    def _long(self, pdu: bytes) -> bytes:
+        """The answer about registers of four bytes."""
+        function, address, number = struct.unpack(">BHH", pdu[:5])
+        start = LONG + 2 * address
+        if function == 3:
+            return struct.pack(f">BB{2 * number}H", 3, 4 * number, *self.get("enron", start, 2 * number))
+        data = pdu[3:] if function == 6 else pdu[6:]
+        assert len(data) == 4 * (1 if function == 6 else number), pdu.hex(" ")
+        self.put("enron", start, list(struct.unpack(f">{len(data) // 2}H", data)))
+        return pdu if function == 6 else pdu[:5]
 
     def _queue(self, pdu: bytes) -> bytes:
         """The count of a queue and its values."""
@@ -80,6 +100,11 @@ class Memory:
             return pdu
         words = self.get("file", file << 16 | record, number)
         return struct.pack(f">BBBB{number}H", 20, 2 + 2 * number, 1 + 2 * number, 6, *words)
+
+
+def _inside(space: str, address: int) -> int:
+    """Where the words of a register of 32 bits are, of an address as it stands in requests."""
+    return LONG + 2 * address if space == "enron" and address < LONG else address
 
 
 def _packed(bits: list[int]) -> bytes:

@@ -14,6 +14,7 @@ from regscribe.checks import (  # noqa: F401 (each declares its rules)
     blocks,
     commands,
     conditions,
+    enron,
     enums,
     header,
     identifiers,

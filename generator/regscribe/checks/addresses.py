@@ -194,6 +194,11 @@ def outside_space(register: Register, _: RuleScope) -> Iterator[Problem]:
     for stretch in stretches(register):
         space, bits = stretch.space, stretch.space.part_bits or PAGE_BITS
         part = stretch.first >> bits
+        if space is Space.ENRON:
+            first, last = space.within(0), space.within(LAST_PART, space.each - 1)
+            if stretch.first < first or stretch.last > last:
+                yield f"takes {stretch}, outside 0..{LAST_PART}", f"correct `at` or the view's offset, or {WRITE_IN}"
+            continue
         parts = range(int(space is Space.FILE), 1 + (LAST_OBJECT if space is Space.IDENTIFICATION else LAST_PART))
         parts = parts if space.part_bits else range(register.page, register.page + 1)
         if stretch.first < 0 or part not in parts or stretch.last > (part << bits) + space.last:
@@ -304,7 +309,7 @@ def _accesses(register: Register) -> Iterator[tuple[str, View, tuple[int, ...]]]
     if register.access.writable:
         for view in register.views:
             if view.writable or view is register.write_view:
-                yield "written", view, view.space.write_functions[int(view.words > 1) :]
+                yield "written", view, view.space.write_functions[int(view.words > view.space.each) :]
 
 
 @map_rule("RS0636", "Addresses in a notation", warns=True)
@@ -317,13 +322,14 @@ def in_a_notation(register_map: RegisterMap, scopes: Scopes) -> Iterator[Finding
             for register in scope.model.registers
             if register.base.space is notation.space and not register.block
         }
-        inside = [one for one in found.values() if one.address >= notation.offset]
+        plain = notation.space.plain
+        inside = [one for one in found.values() if plain(one.address) >= notation.offset]
         if notation.offset >= FAR and 2 * len(inside) > len(found):
             first = min(inside, key=lambda one: one.address)
-            meant = f"is `at: {first.address - notation.offset}` meant? Or {WRITE_IN}"
+            meant = f"is `at: {plain(first.address) - notation.offset}` meant? Or {WRITE_IN}"
             where = f"which notation `{notation.name}` (offset {notation.offset}) would"
-            print_as = f"print as {first.address + notation.offset}"
-            yield Finding.at(first, f"stands at wire address {first.address}, {where} {print_as}", meant)
+            print_as = f"print as {plain(first.address) + notation.offset}"
+            yield Finding.at(first, f"stands at wire address {plain(first.address)}, {where} {print_as}", meant)
 
 
 MODICON = {Space.DISCRETE: 10_001, Space.INPUT: 30_001, Space.HOLDING: 40_001}

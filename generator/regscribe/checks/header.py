@@ -44,8 +44,9 @@ def space_limits(register_map: RegisterMap) -> Iterator[Problem]:
     for space, read, write in register_map.protocol.spaces:
         most = plain.most_read(space), plain.most_written(space) if space.write_functions else 0
         for way, own, limit in zip(("read", "write"), (read, write), most, strict=True):
-            if own > limit:
-                yield f"`protocol.space_limits` has {way} {own} for {space}, of {limit} at most", "correct it"
+            if own > limit // space.each:
+                told = f"`protocol.space_limits` has {way} {own} for {space}, of {limit // space.each} at most"
+                yield told, "correct it"
 
 
 @header_rule("RS0488", "Unit ids that cannot be")

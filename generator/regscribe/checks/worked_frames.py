@@ -9,6 +9,7 @@ from regscribe.checks.rule import RuleScope
 from regscribe.checks.worked_values import compare, example_rule, hexadecimal, in_example, judged
 from regscribe.model import FrameExample, Register, Space, View
 from regscribe.reference import Surroundings
+from regscribe_runtime.wire import enron
 from regscribe_runtime.wire.packing import MalformedError, expect_bytes, unpack_words
 from regscribe_runtime.wire.pdu import EXCEPTION_BIT, OFF, ON, decode_request
 from regscribe_runtime.wire.requests import (
@@ -43,8 +44,8 @@ class FrameFields:
     carried: tuple[int, ...] = ()
 
 
-def parse(data: bytes, *, answer: bool) -> FrameFields:
-    """Read a frame without its CRC. Raises MalformedError if it is too short or too long for what it says."""
+def parse(data: bytes, *, answer: bool, long: bool = False) -> FrameFields:
+    """Read a frame without its CRC, of registers of 32 bits if `long`; MalformedError if its length does not fit it."""
     if len(data) < SHORTEST:
         message = f"{len(data)} bytes are no frame"
         raise MalformedError(message)
@@ -53,10 +54,10 @@ def parse(data: bytes, *, answer: bool) -> FrameFields:
     if answer and function & EXCEPTION_BIT:
         expect_bytes(pdu[1:], 1)
         return head
-    return _answer(head, pdu) if answer else _request(head, pdu)
+    return _answer(head, pdu, long) if answer else _request(head, pdu, long)
 
 
-def _answer(head: FrameFields, pdu: bytes) -> FrameFields:
+def _answer(head: FrameFields, pdu: bytes, long: bool) -> FrameFields:  # noqa: FBT001 (as of the frame)
     if head.function in WORD_READS:
         size = pdu[1] if len(pdu) > 1 else 0
         expect_bytes(pdu[1:], 1 + size)
@@ -64,18 +65,19 @@ def _answer(head: FrameFields, pdu: bytes) -> FrameFields:
             message = f"{size} bytes are no whole number of words"
             raise MalformedError(message)
         words = unpack_words(pdu[2:])
-        return replace(head, count=len(words), words=words, carried=words)
+        return replace(head, count=len(words) // (1 + long), words=words, carried=words)
     if head.function in BLOCK_WRITES:  # address and count, as a read asks for them
         request = decode_request(bytes([READ_HOLDING]) + pdu[1:])
         return replace(head, address=request.address, count=request.quantity)
-    return _request(head, pdu) if head.function in WRITES else head
+    return _request(head, pdu, long) if head.function in WRITES else head
 
 
-def _request(head: FrameFields, pdu: bytes) -> FrameFields:
+def _request(head: FrameFields, pdu: bytes, long: bool) -> FrameFields:  # noqa: FBT001 (as above)
     if head.function not in COMPARED:
         return head
-    request = decode_request(pdu)
-    head = replace(head, address=request.address, count=request.quantity)
+    request = enron.decode_request(pdu) if long else decode_request(pdu)
+    space = request.space or Space.HOLDING
+    head = replace(head, address=space.plain(request.address), count=request.quantity // space.each)
     if request.reads:
         return head
     if not request.quantity:
@@ -85,9 +87,20 @@ def _request(head: FrameFields, pdu: bytes) -> FrameFields:
     return replace(head, words=words, carried=request.words)
 
 
-def _parsed(example: FrameExample) -> FrameFields:
+def _parsed(example: FrameExample, long: bool) -> FrameFields:  # noqa: FBT001 (as above)
     body = example.frame[:-CRC_LENGTH] if example.crc else example.frame
-    return parse(body, answer=example.answer)
+    return parse(body, answer=example.answer, long=long)
+
+
+def _is_long(example: FrameExample, scope: RuleScope) -> bool:
+    """Whether a frame is about registers of 32 bits."""
+    start = example.address
+    if start is None and not (example.answer and example.function in WORD_READS):
+        start = int.from_bytes(example.frame[2:4])
+    if start is None or example.function not in enron.FUNCTIONS:
+        return False
+    places = (place for register in scope.model.registers for place in _places(register, ""))
+    return any(view.space is Space.ENRON and address == Space.ENRON.within(start) for view, address in places)
 
 
 HELP_FRAME = "correct the bytes or the field; `crc: false` if it has no CRC"
@@ -96,13 +109,13 @@ HELP_FRAME = "correct the bytes or the field; `crc: false` if it has no CRC"
 @example_rule(
     "RS0447", "Frame of a worked example is not what the map says of it", FrameExample, "the frame", HELP_FRAME
 )
-def frame_fields(example: FrameExample, _: RuleScope) -> Iterator[str]:
+def frame_fields(example: FrameExample, scope: RuleScope) -> Iterator[str]:
     """A frame proves addresses and functions."""
     if example.crc and (wrong := _wrong_crc(example.frame)):
         yield wrong
         return
     try:
-        frame = _parsed(example)
+        frame = _parsed(example, _is_long(example, scope))
     except MalformedError as malformed:
         yield str(malformed)
         return
@@ -125,12 +138,13 @@ def _wrong_crc(frame: bytes) -> str:
 def frame_values(example: FrameExample, scope: RuleScope) -> Iterator[str]:
     """The printed words prove scales, types and commands."""
     try:
-        frame = _parsed(example)
+        frame = _parsed(example, _is_long(example, scope))
     except MalformedError:
         return
     known = in_example(scope, (*example.state, *example.writes))
     same = {frame.function, *(code for codes in scope.register_map.alike if frame.function in codes for code in codes)}
-    spaces = {SPACES[code] for code in same if code in SPACES}
+    spaces: set[Space] = {SPACES[code] for code in same if code in SPACES}
+    spaces = {Space.ENRON} if _is_long(example, scope) else spaces
     for path, value in example.writes:
         register = scope.registers.get(path)
         if register is None:
@@ -156,7 +170,7 @@ def _value(
         return "the frame has no address; say it under `address`"
     words = frame.carried
     for view, address in _places(register, example.view):
-        offset = address - start
+        offset = address - view.space.within(start)
         if not 0 <= offset <= len(words) - view.words:
             continue
         if view.space not in spaces:
@@ -185,7 +199,11 @@ def _command(example: FrameExample, frame: FrameFields, scope: RuleScope) -> Ite
         return
     words = frame.carried
     steps = [
-        (step.function, step.address, words if step.argument and len(words or ()) == len(step.words) else step.words)
+        (
+            step.function,
+            step.space.plain(step.address),
+            words if step.argument and len(words or ()) == len(step.words) else step.words,
+        )
         for step in command.steps
         if step.words
     ]

@@ -96,7 +96,7 @@ def formula(view: View, at: int, arrays: Sequence[Array]) -> str:
     """Return the address of any element: `8004 + 2*(i - 1)`; the plain address outside arrays."""
     terms = [view.space.spelled(view.address(at))]
     for array, letter in zip(arrays, LETTERS, strict=False):
-        stride = view.stride * array.stride
+        stride = view.stride * array.stride // view.space.each
         steps = f"({letter} {'-' if array.first > 0 else '+'} {abs(array.first)})" if array.first else letter
         terms.append(steps if stride == 1 else f"{stride}*{steps}")
     return " + ".join(terms)

@@ -81,16 +81,19 @@ def _carried(register_map: RegisterMap, frame: FrameExample) -> set[str]:
         if view.space in spaces
         and not register.block
         and not register.page
-        and start <= view.address(register.at) <= view.last(register.at) < end
+        and start <= view.space.plain(view.address(register.at))
+        and view.space.plain(view.last(register.at)) < end
     }
     return found if frame.words or len(found) == 1 else set()
 
 
 def _spaces(register_map: RegisterMap, function: int) -> set[Space]:
     """The spaces that a function reads or writes, itself or like others."""
-    by_code = {code: space for space in Space for code in (space.read_function, *space.write_functions)}
+    plain = (space for space in Space if space is not Space.ENRON)
+    by_code = {code: space for space in plain for code in (space.read_function, *space.write_functions)}
     alike = next((codes for codes in register_map.alike if function in codes), (function,))
-    return {by_code[code] for code in alike if code in by_code} if function in by_code else set()
+    found = {by_code[code] for code in alike if code in by_code} if function in by_code else set()
+    return found | ({Space.ENRON} if Space.HOLDING in found else set())
 
 
 def open_limits(register: Register) -> tuple[str, ...]:

@@ -151,13 +151,19 @@ WRITERS: dict[type, Callable[[Any], Json]] = {
     Is: _test,
     OrderCases: _order,
     Interval: lambda interval: {"low": _limit(interval.low), "high": _limit(interval.high)},
-    tuple: lambda items: [_plain(item) for item in items],
+    tuple: lambda items: [_plain(item) for item in _as_printed(items)],
     Model: _model,
     Command: _command,
     IdentityRule: lambda rule: _fields(rule.identity) | {"models": list(rule.models)},
     **dict.fromkeys(EXAMPLES, lambda example: {"type": EXAMPLES[type(example)]} | _fields(example)),
 }
 """Types that are not written as an object of their fields."""
+
+
+def _as_printed(items: tuple[Any, ...]) -> tuple[Any, ...]:
+    """The items; of a stretch of addresses (space, first, last) those that stand in requests."""
+    space = items[0] if items and isinstance(items[0], Space) else None
+    return (space, *map(space.plain, items[1:])) if space else items
 
 
 def _plain(value: Any) -> Json:  # noqa: ANN401 (any value of the model)

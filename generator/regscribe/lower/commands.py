@@ -169,7 +169,8 @@ def _function(node: Value, count: int, view: View | None, device: CommandScope) 
     space = view.space if view else node.choice_of("space", usual)
     single, several = space.write_functions or Space.HOLDING.write_functions
     allowed = [code for code in device.protocol.functions if not view or view.allows(code)]
-    return single if count == 1 and single in allowed else several
+    alone = count == space.each and single in allowed
+    return single if alone and (space.each == 1 or several not in allowed) else several
 
 
 def view_of(node: Value | None, register: Register) -> View:

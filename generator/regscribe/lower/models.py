@@ -96,7 +96,8 @@ def model_of(node: Value, root: Value, scope: Scope, bundles: list[Bundle], prot
 
 def stretch_of(node: Value) -> tuple[Space, int, int]:
     """A stretch of addresses: space, first, last."""
-    return node.choice_of("space", Space.HOLDING), *whole_ends(node.child("at"))
+    space, (first, last) = node.choice_of("space", Space.HOLDING), whole_ends(node.child("at"))
+    return space, space.within(first), space.within(last, space.each - 1)
 
 
 def _groups(bundles: list[Bundle], root: Value) -> tuple[Group, ...]:

@@ -77,7 +77,7 @@ def register_of(entry: TreeNode, everywhere: Scope) -> Register:
         description=settings.text_of("description"),
         section=settings.text_of("source") or place.section,
         group=place.group,
-        aliases=tuple(alias + moved for alias in settings.wholes_of("aliases")),
+        aliases=tuple(views[0].space.within(alias) + moved for alias in settings.wholes_of("aliases")),
         scale=tuple(Case(part.when, part.conversion) for part in scaling),
         unit=unit,
         unit_id=unit_id,

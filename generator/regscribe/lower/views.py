@@ -109,12 +109,28 @@ def _on_page(entry: TreeNode, view: View) -> View:
 def _in_part(entry: TreeNode, view: View) -> View:
     """The view in the file, or the queue, that the map names; RS0340 where it names none."""
     space, node = view.space, entry.settings.get(view.space)
+    if space is Space.ENRON:
+        return _of_two_words(entry, view)
     if space is Space.IDENTIFICATION:  # `at` is the number of an object
         return view._replace(stride=1 << space.part_bits)
     if node is None:
         remedy = f"give `{space}: N` here or in the group's `each`"
         entry.node.report(NO_PART, f"`{entry.id}` is in space `{space}`, but in which {space}?", remedy=remedy)
     return view._replace(offset=view.offset + ((node.whole() if node else 1) << space.part_bits))
+
+
+def _of_two_words(entry: TreeNode, view: View) -> View:
+    """The view in registers of 32 bits; RS0340 where its words do not fill whole ones, or stand apart."""
+    at = entry.settings.get("at")
+    if view.words % view.space.each or (at and at.is_list):
+        apart = ", each at its own address" if at and at.is_list else ""
+        what = f"view {view.name} has {view.words} words of {view.type}{apart}"
+        remedy = "give a type of two or four words, such as `uint32` or `float32`, and one `at`; or `space: holding`"
+        entry.node.report(NO_PART, f"`{entry.id}` is in space `enron`, of registers of 32 bits; {what}", remedy=remedy)
+    inside, each = view.space.within, view.space.each
+    region = (inside(view.region[0]), inside(view.region[1], each - 1)) if view.region else None
+    align = each * view.align if view.align > 1 else 1
+    return view._replace(offset=inside(view.offset), stride=each * view.stride, align=align, region=region)
 
 
 def at_of(entry: TreeNode) -> int:

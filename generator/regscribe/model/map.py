@@ -39,7 +39,9 @@ class Notation:
 
     def printed(self, address: int) -> str:
         """A wire address as the manual prints it."""
-        return f"0x{address + self.offset:04X}" if self.base == 16 else self.space.spelled(address, self.offset)  # noqa: PLR2004
+        if self.base == 16:  # noqa: PLR2004
+            return f"0x{self.space.plain(address) + self.offset:04X}"
+        return self.space.spelled(address, self.offset)
 
 
 class GivenKind(StrEnum):
@@ -355,7 +357,7 @@ class RegisterMap:
     def most(self, space: Space, way: str) -> int:
         """Return the most addresses of a space that the device takes in one request; `way` is read or write."""
         own = next((one.read if way == "read" else one.write for one in self.protocol.spaces if one.space is space), 0)
-        return own or self.accepted(f"{way}_bits" if space.is_bits else f"{way}_words")
+        return space.each * own or self.accepted(f"{way}_bits" if space.is_bits else f"{way}_words")
 
     def accepted(self, limit: str) -> int:
         """Return the most that the device answers: `limit` (`read_words` and so on), or what it accepts beyond it."""

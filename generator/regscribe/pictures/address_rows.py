@@ -97,6 +97,7 @@ def sections(register_map: RegisterMap, uses: Sequence[AddressUse]) -> tuple[Add
     """Return the sections of all spaces, by space and address."""
     unused = dict.fromkeys(stretch for model in register_map.models for stretch in model.unused)
     stretches = [("unused", *stretch) for stretch in unused] + [("reserved", *one) for one in register_map.reserved]
+    stretches = [one for one in stretches if not one[1].part_bits]
     found: list[AddressSection] = []
     for space in Space:
         own = [use for use in uses if use.space is space]

@@ -40,7 +40,7 @@ def address_uses(register_map: RegisterMap) -> tuple[AddressUse, ...]:
 def _uses(model: Model) -> Iterator[AddressUse]:
     for register in (one for one in model.registers if not one.block and not one.page):
         yield from (_use(register, view) for view in register.views if not view.space.part_bits)
-        for address in register.aliases:
+        for address in () if register.base.space.part_bits else register.aliases:
             base = _use(register, register.base)
             yield replace(base, first=address, last=address + register.base.words - 1, region=None, alias=True)
 

@@ -25,6 +25,7 @@ NAMES = {
     Space.FILE: "File record",
     Space.QUEUE: "FIFO queue",
     Space.IDENTIFICATION: "Object of the identification",
+    Space.ENRON: "Register of 32 bits",
 }
 
 WORD = 16

@@ -63,7 +63,8 @@ class Level:
     @property
     def step(self) -> int | None:
         """Return by how many addresses the members move from one element to the next; None if not all alike."""
-        steps = {_base(leaf).stride * self.array.stride for leaf in leaves(self.branch.children)}
+        bases = {(base.stride // base.space.each) for base in map(_base, leaves(self.branch.children))}
+        steps = {stride * self.array.stride for stride in bases}
         return steps.pop() if len(steps) == 1 and self.array.count > 1 else None
 
     @property
@@ -71,7 +72,8 @@ class Level:
         """Return the first address of the first element if its members stand together, apart from other elements."""
         spans = [self.span(child, 0) for child in self.branch.children]
         low, high = min(first for first, _ in spans), max(last for _, last in spans)
-        together = self.step is not None and high - low < self.step
+        plain = not any(_base(leaf).space.part_bits for leaf in leaves(self.branch.children))
+        together = plain and self.step is not None and high - low < self.step
         return low if together and len(spans) > 1 else None
 
 

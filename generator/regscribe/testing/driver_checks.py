@@ -81,11 +81,14 @@ class DriverUnderTest:
             if register is None:
                 continue
             first = place.get("page", 0) << PAGE_BITS
-            addresses = {view.name: view.address(register.at) - first for view in register.views}
+            addresses = {view.name: view.space.plain(view.address(register.at) - first) for view in register.views}
             yield from differs(place["path"], "addresses", addresses, place["addresses"])
             yield from differs(place["path"], "block", register.block, place.get("block", ""))
             yield from differs(
-                place["path"], "aliases", [alias - first for alias in register.aliases], place.get("aliases", [])
+                place["path"],
+                "aliases",
+                [register.views[0].space.plain(alias - first) for alias in register.aliases],
+                place.get("aliases", []),
             )
             default = "" if register.default is None else spelled(register, register.default)
             if default != place.get("default", "") and not same(default, place.get("default", "0")):
@@ -108,7 +111,7 @@ class DriverUnderTest:
     def _commands(self) -> Iterator[str]:
         section = getattr(self.driver, "commands", None)
         found = {
-            name: (bool(one.danger), [step._replace(when=ALWAYS) for step in one.steps])
+            name: (bool(one.danger), [_as_sent(step) for step in one.steps])
             for name, one in (section.commands() if section else {}).items()
         }
         expected = {
@@ -176,7 +179,7 @@ class DriverUnderTest:
             register = self.driver.registers[path]
             view, address = _placed(register, example.get("view"), start, len(data))
             words = register.encode(number(text), view=view.name, state=state, givens=givens)
-            place = address - start
+            place = address - view.space.within(start)
             there = data[place : place + len(words)] if place >= 0 else ()
             frame = f"frame of {example['source']}" if example["source"] else "frame"
             yield from differs(frame, f"{path} = {text}", _hex(there), _hex(words))
@@ -199,7 +202,9 @@ def _placed(register: Register[Any], name: str | None, start: int, count: int) -
     base = register.views[0]
     places = [(view, view.address(register.at)) for view in register.views if name in {None, view.name}]
     places += [(base, alias) for alias in register.aliases if name in {None, base.name}]
-    held = ((view, address) for view, address in places if 0 <= address - start <= count - view.words)
+    held = (
+        (view, address) for view, address in places if 0 <= address - view.space.within(start) <= count - view.words
+    )
     return next(held, places[0])
 
 
@@ -215,6 +220,11 @@ def _carried(function: int, sent: bytes) -> tuple[int, ...]:
 
 def _hex(words: tuple[int, ...]) -> str:
     return " ".join(f"{word:04X}" for word in words)
+
+
+def _as_sent(step: CommandStep) -> CommandStep:
+    """A step with the address that stands in its request."""
+    return step._replace(address=step.space.plain(step.address), when=ALWAYS)
 
 
 def _step(step: Json) -> CommandStep:

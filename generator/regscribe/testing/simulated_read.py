@@ -16,7 +16,7 @@ from regscribe_runtime.registers.register import Register
 from regscribe_runtime.values.blocks import RegisterBlock, headers_in, lay_out
 from regscribe_runtime.values.kinds import Kind
 from regscribe_runtime.values.wire_types import Space
-from regscribe_runtime.wire.requests import READ_SPACES, Reply, Request
+from regscribe_runtime.wire.requests import Reply, Request
 
 Cell = tuple[str, int]
 """A space and a wire address."""
@@ -50,7 +50,7 @@ def read_through(driver: Any, chosen: Sequence[Register[Any]], *, seed: int = 0,
                 asked = operation.send(None)
                 continue
             requests.append(asked)
-            space = READ_SPACES[asked.function]
+            space = asked.space or Space.HOLDING
             words = tuple(word_at(space, asked.address + offset, seed) for offset in range(asked.quantity))
             asked = operation.send(Reply(asked.function, words))
     except StopIteration as done:
@@ -112,7 +112,7 @@ def wrong_requests(driver: Any, chosen: Sequence[Register[Any]]) -> list[str]:  
     """Return what is wrong with the requests: registers left out or asked for twice, holes, limits."""
     requests, _, session = read_through(driver, chosen)
     asked = Counter(
-        (READ_SPACES[request.function], request.address + offset)
+        (request.space or Space.HOLDING, request.address + offset)
         for request in requests
         for offset in range(request.quantity)
     )
@@ -121,7 +121,7 @@ def wrong_requests(driver: Any, chosen: Sequence[Register[Any]]) -> list[str]:  
     found += [f"{space} {address} is asked for again" for (space, address), times in asked.items() if times > 1]
     found += [f"{space} {address} is no register" for space, address in sorted(_holes(driver, session, asked))]
     for request in requests:
-        most = _most(driver, READ_SPACES[request.function])
+        most = _most(driver, request.space or Space.HOLDING)
         if request.quantity > most:
             found += [f"{request.quantity} addresses from {request.address} in one request, where {most} are allowed"]
     return found

@@ -205,7 +205,7 @@ class _PlanReport:
             f"{block.function:02d}",
             span_words(block.space.spelled(block.address), block.space.spelled(block.end - 1), ".."),
             str(one.wanted),
-            str(one.block.quantity),
+            str(one.quantity),
             str(one.bytes),
             f"{one.ms:.1f}",
             f"{reason} ({one.split.detail})" if one.split.detail else reason,
@@ -222,7 +222,7 @@ class _PlanReport:
                 {
                     "function": one.block.function,
                     **one.block.space.facts(one.block.address),
-                    "quantity": one.block.quantity,
+                    "quantity": one.quantity,
                     "wanted": one.wanted,
                     "bytes": one.bytes,
                     "ms": round(one.ms, 3),

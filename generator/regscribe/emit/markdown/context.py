@@ -19,6 +19,7 @@ SPACES = {
     Space.FILE: "Records of files",
     Space.QUEUE: "FIFO queues",
     Space.IDENTIFICATION: "Device identification",
+    Space.ENRON: "Registers of 32 bits (Enron)",
 }
 
 

@@ -154,7 +154,7 @@ def _base(block: RegisterBlock) -> Md:
 
 def reserved(context: PageContext) -> PageTable:
     """Return the addresses that the manual reserves."""
-    rows = ((SPACES[space], span_words(low, high)) for space, low, high in context.map.reserved)
+    rows = ((SPACES[space], span_words(*map(space.spelled, (low, high)))) for space, low, high in context.map.reserved)
     return table(("Space", "Wire addresses"), rows)
 
 
@@ -162,6 +162,7 @@ def unused(context: PageContext) -> PageTable:
     """Return the addresses that the manual lists as unused, with the models where not all agree."""
     found = models_by((model.name, stretch) for model in context.map.models for stretch in model.unused)
     rows = (
-        (SPACES[space], span_words(low, high), context.covers(models)) for (space, low, high), models in found.items()
+        (SPACES[space], span_words(*map(space.spelled, ends)), context.covers(models))
+        for (space, *ends), models in found.items()
     )
     return table(("Space", "Wire addresses", "Models"), rows)

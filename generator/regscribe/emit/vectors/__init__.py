@@ -80,7 +80,11 @@ def _command(command: Command) -> Json:
 def _step(step: CommandStep) -> Json:
     if not step.words:
         return {"wait": step.wait}
-    found: Json = {"function": step.function, "address": step.address, "words": [word & 0xFFFF for word in step.words]}
+    found: Json = {
+        "function": step.function,
+        "address": step.space.plain(step.address),
+        "words": [word & 0xFFFF for word in step.words],
+    }
     more = {key: text for key in ("block", "argument") if (text := getattr(step, key))}
     return found | more
 

@@ -103,14 +103,14 @@ def _place(register: Register) -> Json:
     first = register.page << PAGE_BITS
     found: Json = {
         "path": register.path,
-        "addresses": {view.name: view.address(register.at) - first for view in register.views},
+        "addresses": {view.name: view.space.plain(view.address(register.at) - first) for view in register.views},
     }
     if register.page:
         found["page"] = register.page
     if register.block:
         found["block"] = register.block
     if register.aliases:
-        found["aliases"] = [alias - first for alias in register.aliases]
+        found["aliases"] = [register.base.space.plain(alias - first) for alias in register.aliases]
     if register.default is not None:
         found["default"] = register.default if isinstance(register.default, str) else show(register.default)
     return found

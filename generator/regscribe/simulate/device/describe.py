@@ -9,10 +9,10 @@ from regscribe.simulate.device.device_plan import AddressSpan
 from regscribe.simulate.line.server_context import BROADCAST
 from regscribe.simulate.line.service import Exchange
 from regscribe_runtime.values.kinds import OCTETS
-from regscribe_runtime.values.wire_types import PAGE_BITS, WRITE_AND_READ
+from regscribe_runtime.values.wire_types import PAGE_BITS, WRITE_AND_READ, Space
 from regscribe_runtime.wire.packing import MalformedError
-from regscribe_runtime.wire.pdu import EXCEPTION_BIT, decode_reply, decode_request
-from regscribe_runtime.wire.requests import READ_HOLDING, SPACES, Request
+from regscribe_runtime.wire.pdu import EXCEPTION_BIT, decode_reply
+from regscribe_runtime.wire.requests import READ_HOLDING, Request
 
 NAMES = dict.fromkeys(READS, "read") | dict.fromkeys((5, 6, 15, 16, 21), "write")
 NAMES |= {7: "read status", 20: "read", 24: "read", 43: "read", 8: "loopback", 22: "mask", 23: "write and read"}
@@ -57,7 +57,7 @@ def _registers(device: SimulatedDevice, exchange: Exchange) -> str:
     """The registers of a request with their values: those that were written, or those that the answer shows."""
     pdu = exchange.request.pdu
     try:
-        request = decode_request(pdu)
+        request = device.understood(pdu)
     except MalformedError:
         return pdu.hex(" ")
     words = request.words
@@ -65,12 +65,12 @@ def _registers(device: SimulatedDevice, exchange: Exchange) -> str:
         words = decode_reply(request, exchange.answer).words
     if request.function == WRITE_AND_READ:
         request = request._replace(function=READ_HOLDING)
-    if request.function not in SPACES:
+    if request.space is None:
         return pdu[1:].hex(" ")
     shown = list(_values(device, request, words, exchange.request.unit))
     if not shown:
         first, last = request.address, request.address + request.quantity - 1
-        space = SPACES[request.function]
+        space = request.space
         return f"{space} {space.spelled(first)}" + (f"..{space.spelled(last)}" if last > first else "")
     more = len(shown) - MOST_SHOWN
     return ", ".join(shown[:MOST_SHOWN]) + (f" and {more} more" if more > 0 else "")
@@ -79,7 +79,7 @@ def _registers(device: SimulatedDevice, exchange: Exchange) -> str:
 def _values(device: SimulatedDevice, request: Request, words: tuple[int, ...], unit: int) -> Iterator[str]:
     layout = device.state.blueprint.layout
     alike = (READS[code] for codes in device.register_map.alike for code in codes if code in READS)
-    spaces = [SPACES[request.function], *alike]
+    spaces = [request.space or Space.HOLDING, *alike]
     at = request.address
     while at < request.address + request.quantity:
         places = (layout.place(each, device.on_page(each, at, unit), writing=not request.reads) for each in spaces)

@@ -18,7 +18,7 @@ from regscribe.simulate.line.line_settings import Tuning
 from regscribe.simulate.process.controller import controller_of
 from regscribe.simulate.process.thermal_process import ThermalProcess
 from regscribe_runtime.values.wire_types import PAGE_BITS, WRITE_AND_READ
-from regscribe_runtime.wire import identification, parts
+from regscribe_runtime.wire import enron, identification, parts
 from regscribe_runtime.wire import requests as functions
 from regscribe_runtime.wire.packing import MalformedError
 from regscribe_runtime.wire.pdu import EXCEPTION_BIT, CoilStateError, decode_request, encode_reply
@@ -64,6 +64,7 @@ class SimulatedDevice:
         self.moves = bool(process)
         self._asked: int | None = None
         self._lock = RLock()
+        self._long = self.state.blueprint.layout.plain(Space.ENRON)
         self._functions: dict[int, Callable[[bytes], bytes]] = {
             **dict.fromkeys(READS, self._read),
             **dict.fromkeys(functions.WRITES, self._write),
@@ -179,7 +180,7 @@ class SimulatedDevice:
         """The decoded request, its address counted from 0; one of a wrong length is refused for its quantity."""
         faults = self.register_map.faults
         try:
-            request = decode_request(pdu).shifted(-self._tuning.first)
+            request = self.understood(pdu).shifted(-self._tuning.first)
         except CoilStateError:
             raise Refusal(faults.value) from None
         except MalformedError:
@@ -188,9 +189,29 @@ class SimulatedDevice:
             raise Refusal(faults.address)
         return request
 
+    def understood(self, pdu: bytes) -> Request:
+        """The decoded request: one that begins at a register of 32 bits has four bytes for each."""
+        long = pdu[0] in enron.FUNCTIONS and int.from_bytes(pdu[1:3]) - self._tuning.first in self._long
+        return enron.decode_request(pdu) if long else decode_request(pdu)
+
+    def _check_edge(self, request: Request) -> None:
+        """Refuse a request for registers of 16 and of 32 bits."""
+        space = request.space
+        if not self._long or (space is not Space.HOLDING and space is not Space.ENRON):
+            return
+        layout, plain = self.state.blueprint.layout, space.plain
+        addresses = {plain(each) for each in range(request.address, request.address + request.quantity)}
+        short = any(layout.place(Space.HOLDING, each) for each in addresses)
+        if short if space is Space.ENRON else not self._long.isdisjoint(addresses):
+            raise Refusal(self.register_map.faults.address)
+
     def _read(self, pdu: bytes) -> bytes:
         """Read with the request's function, or with one that the map calls alike and whose space has the address."""
         request = self._request(pdu)
+        self._check_edge(request)
+        if request.space is Space.ENRON:
+            words = self._words.read(Space.ENRON, request.function, request.address, request.quantity)
+            return encode_reply(Reply(request.function, words, request.address))
         alike = (codes for codes in self.register_map.alike if request.function in codes)
         candidates = (request.function, *(code for codes in alike for code in codes if code in READS))
         documents = self.state.blueprint.layout.documents
@@ -201,11 +222,12 @@ class SimulatedDevice:
 
     def _write(self, pdu: bytes) -> bytes:
         request = self._request(pdu)
-        space = functions.SPACES[request.function]
+        self._check_edge(request)
+        space = request.space or Space.HOLDING
         done = self._words.write(
             space, request.function, self.on_page(space, request.address, self._asked), request.words
         )
-        return encode_reply(Reply(request.function, request.words, request.address + self._tuning.first, done))
+        return encode_reply(Reply(request.function, request.words, request.shifted(self._tuning.first).address, done))
 
     @property
     def units(self) -> tuple[int, ...]:

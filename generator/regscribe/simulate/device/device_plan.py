@@ -125,6 +125,10 @@ class AddressIndex:
         """Whether `address` lies between the lowest and the highest that the map documents in that space."""
         return address in self._bounds[space, space.page(address)]
 
+    def plain(self, space: Space) -> frozenset[int]:
+        """The addresses of a space that a request may begin at, as they stand in it."""
+        return frozenset(space.plain(address) for address in (*self._places[space], *self._written[space]))
+
     def _bounds_of(self, space: Space, page: int) -> range:
         silent = (address for kind, address in self.silent if kind is space)
         fixed = (address for kind, address in self.fixed if kind is space)

@@ -17,7 +17,8 @@ from regscribe_runtime.errors import STANDARD
 from regscribe_runtime.registers import codec
 from regscribe_runtime.values.blocks import stated_bases
 from regscribe_runtime.values.facts import CommandStep
-from regscribe_runtime.values.wire_types import WRITE_AND_READ
+from regscribe_runtime.values.wire_types import WRITE_AND_READ, Space
+from regscribe_runtime.wire import enron
 from regscribe_runtime.wire.capture import CapturedFrame
 from regscribe_runtime.wire.packing import MalformedError
 from regscribe_runtime.wire.pdu import EXCEPTION_BIT, decode_reply, decode_request
@@ -104,13 +105,28 @@ class Decoder:
                 return self._answer(frame, request)
             if direction == RECEIVED or _is_answer(frame):
                 return self._answer(frame, None)
-        request = _request(frame, self.first)
+        request = self._request(frame)
         if request is None:
             self._pending = {}
             return self._strange("request", frame, "of a form that is not known")
         self._pending = {frame.unit: request}
         items = self._items(frame.unit, request, request.words if request.function in WRITES else None)
         return _decoded("request", frame, self._action(frame.unit, request), request, items)
+
+    def _request(self, frame: CapturedFrame) -> Request | None:
+        """The request of a frame; None for a frame of another form."""
+        try:
+            request = self._decoded(frame).shifted(-self.first)
+        except MalformedError:
+            return None
+        known = request.function in {*SPACES, LOOPBACK, MASK_REGISTER, WRITE_AND_READ}
+        return request._replace(address=max(request.address, 0)) if known else None
+
+    def _decoded(self, frame: CapturedFrame) -> Request:
+        """The request of a frame: one that begins at a register of 32 bits has four bytes for each."""
+        start = Space.ENRON.within(int.from_bytes(frame.pdu[1:3]) - self.first)
+        long = frame.function in enron.FUNCTIONS and self._places[frame.unit].at(Space.ENRON, start, frame.unit)
+        return enron.decode_request(frame.pdu) if long else decode_request(frame.pdu)
 
     def _answer(self, frame: CapturedFrame, request: Request | None) -> Decoded:
         if frame.pdu[0] & EXCEPTION_BIT:
@@ -125,7 +141,7 @@ class Decoder:
         if request.function in WRITES or request.function == MASK_REGISTER:
             self._learn(frame.unit, request, request.words if request.function in WRITES else ())
             if request.function in WRITES:
-                self._places[frame.unit].wrote(SPACES[request.function], request.address, request.words)
+                self._places[frame.unit].wrote(request.space or "", request.address, request.words)
             return _decoded("response", frame, "written", request)
         words = decode_reply(request, frame.pdu).words
         if request.function == WRITE_AND_READ:
@@ -152,7 +168,7 @@ class Decoder:
             written = " ".join(f"{word:04X}" for word in request.words)
             reads = self._action(unit, request._replace(function=READ_HOLDING))
             return f"write {written} to holding {request.into} and {reads}"
-        space = SPACES[request.function]
+        space = request.space or Space.HOLDING
         ends = span_words(*map(space.spelled, (request.address, request.address + request.quantity - 1)))
         where = f"{space} {ends}"
         placed = self._places[unit].placed
@@ -164,7 +180,7 @@ class Decoder:
     def _learn(self, unit: int, request: Request, words: tuple[int, ...]) -> None:
         """Keep the values of registers; decoded twice, since the values of some decide those of others."""
         state = self._states[unit]
-        self._places[unit].saw(SPACES.get(request.function, ""), request.address, words)
+        self._places[unit].saw(request.space or "", request.address, words)
         for register, view, part in list(self._registers(unit, request, words)) * 2:
             try:
                 register.check_present(state, self._givens)
@@ -213,7 +229,7 @@ class Decoder:
 
         Where one is read and another one written, those that the request means.
         """
-        space = SPACES.get(request.function, "")
+        space = request.space or ""
         for offset in range(request.quantity):
             here = self._places[unit].at(space, request.address + offset, unit)
             meant = [one for one in here if _serves(*one, reading=request.fetches)]
@@ -261,16 +277,3 @@ def _answers(frame: CapturedFrame, request: Request, *, sure: bool) -> bool:
     if frame.function != request.function:
         return False
     return sure or bool(frame.pdu[0] & EXCEPTION_BIT) or len(frame.pdu) == sizes(request)[1]
-
-
-def _request(frame: CapturedFrame, first: int) -> Request | None:
-    """The request of a frame; None for a frame of another form."""
-    try:
-        request = decode_request(frame.pdu).shifted(-first)
-    except MalformedError:
-        return None
-    return (
-        request._replace(address=max(request.address, 0))
-        if request.function in {*SPACES, LOOPBACK, MASK_REGISTER, WRITE_AND_READ}
-        else None
-    )

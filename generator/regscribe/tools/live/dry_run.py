@@ -11,7 +11,6 @@ from regscribe_runtime.wire.requests import (
     BLOCK_WRITES,
     MASK_REGISTER,
     READ_HOLDING,
-    READ_SPACES,
     SPACES,
     WRITES,
     Reply,
@@ -50,7 +49,7 @@ class DryLink:
             return self._mask(unit, request, address)
         if request.function not in WRITES:
             reply = self._link.call(unit, request)
-            space = Space.HOLDING if request.function == WRITE_AND_READ else READ_SPACES.get(request.function)
+            space = Space.HOLDING if request.function == WRITE_AND_READ else request.space
             if space is None or reply.exception is not None:
                 return reply
             held = (self._held.get((unit, space, address + at), word) for at, word in enumerate(reply.words))
@@ -62,7 +61,7 @@ class DryLink:
             for view in register.views
             if register.access.writable and not (view.readable and register.access.readable)
         }
-        self._hold(unit, SPACES[request.function], address, request.words)
+        self._hold(unit, request.space or Space.HOLDING, address, request.words)
         words = () if request.function in BLOCK_WRITES else request.words
         return Reply(request.function, words, request.address, len(request.words))
 

@@ -71,7 +71,7 @@ def _check_units(register: Register[Any], drivers: Mapping[str, Driver]) -> None
 
 def _function(register: Register[Any], view: View, words: int, protocols: Iterable[Protocol]) -> int:
     single, several = view.space.write_functions
-    for function in [several] if words > 1 else [single, several]:
+    for function in [several] if words > view.space.each else [single, several]:
         if all(function in protocol.broadcast for protocol in protocols) and view.allows(function):
             return function
     allowed = {name for protocol in protocols for name in protocol.broadcast}

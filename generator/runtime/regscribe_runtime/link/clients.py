@@ -21,8 +21,9 @@ from regscribe_runtime.link.links import ClientSettings, Retry
 from regscribe_runtime.link.locks import AsyncTurns, Turns
 from regscribe_runtime.link.pending import PendingRequest, StaleReplies
 from regscribe_runtime.values.serial_line import MODBUS, LineChange, SerialLine, first_address
+from regscribe_runtime.values.wire_types import Space
 from regscribe_runtime.wire import pdu
-from regscribe_runtime.wire.requests import Reply, Request
+from regscribe_runtime.wire.requests import WRITE_REGISTER, Reply, Request
 
 SILENT = "No response received"
 """Text of pymodbus' error when nothing came; its other errors concern the answer."""
@@ -98,6 +99,9 @@ class _Base:
 
     def _begin(self, unit: int, request: Request) -> PendingRequest:
         self._used = self._connection()
+        if request.function == WRITE_REGISTER and request.space is Space.ENRON:
+            message = "pymodbus cannot write a register of 32 bits by function 06: use a link of regscribe's own"
+            raise ValueError(message)
         shifted = request.shifted(first_address(self.addressing))
         return PendingRequest(unit, request, shifted, pdu.encode_request(shifted), self.timeout)
 

@@ -3,6 +3,7 @@
 from collections.abc import Generator
 from typing import NamedTuple, TypeVar
 
+from regscribe_runtime.values.wire_types import spelled_address
 from regscribe_runtime.wire import pdu
 from regscribe_runtime.wire.requests import Request, fits
 
@@ -26,7 +27,8 @@ class PendingRequest(NamedTuple):
     seconds: float
 
     def __str__(self) -> str:
-        return f"unit {self.unit}, function {self.shown.function:02d}, address {self.shown.address}"
+        where = spelled_address(self.shown.function, self.shown.address)
+        return f"unit {self.unit}, function {self.shown.function:02d}, address {where}"
 
     @property
     def is_broadcast(self) -> bool:

@@ -11,7 +11,7 @@ from typing import NamedTuple
 
 from regscribe_runtime.errors import Absent, RegscribeError
 from regscribe_runtime.planning.address_ranges import RegisterSpan
-from regscribe_runtime.wire.requests import READ_SPACES, Request
+from regscribe_runtime.wire.requests import Request
 
 EXPIRY_SECONDS = 600.0
 """Seconds for which a refused address is left out."""
@@ -51,7 +51,7 @@ class MissingRegisters:
         """Forget refusals of addresses that a request has read; whether there were any."""
         if not self._refusals:
             return False
-        space, first, end = READ_SPACES.get(request.function), request.address, request.address + request.quantity
+        space, first, end = request.space, request.address, request.address + request.quantity
         return self._forget(lambda one: one.item.space == space and first <= one.item.address and one.item.end <= end)
 
     def drop(self, items: Collection[RegisterSpan]) -> bool:

@@ -4,7 +4,7 @@ from collections.abc import Iterable
 
 from regscribe_runtime.planning.address_ranges import places
 from regscribe_runtime.values.views import Placed
-from regscribe_runtime.wire.requests import SPACES, Request
+from regscribe_runtime.wire.requests import Request
 
 
 def portions_of(request: Request, most: int, registers: Iterable[Placed]) -> list[Request]:
@@ -16,7 +16,7 @@ def portions_of(request: Request, most: int, registers: Iterable[Placed]) -> lis
 
 def _alignment(request: Request, registers: Iterable[Placed]) -> int:
     """What addresses and counts must be multiples of there."""
-    space = SPACES[request.function]
+    space = request.space
     return max(
         view.align
         for register in registers

@@ -28,7 +28,7 @@ from regscribe_runtime.values.facts import Page
 from regscribe_runtime.values.protocol import Protocol
 from regscribe_runtime.values.serial_line import MODBUS, LineChange, SerialLine
 from regscribe_runtime.values.wire_types import WIRE, WRITE_AND_READ, Space
-from regscribe_runtime.wire.requests import READ_HOLDING, READ_SPACES, SPACES, Reply, Request, verify
+from regscribe_runtime.wire.requests import READ_HOLDING, Reply, Request, verify
 
 T = TypeVar("T")
 
@@ -68,7 +68,7 @@ class Session:
     restored if that operation fails.
 
     `declared` are the registers as the driver's class has them, `registers` the same where they stand on this device.
-    `most` are the most addresses of a request by function.
+    `most` are the most addresses of a request by space and function.
     `counters` are registers that tell where others stand, `chains` the chains of `blocks` that were walked since the
     link was opened, `places` the blocks that were found.
     """
@@ -114,7 +114,11 @@ class Session:
         self._tries = Retry()
         self._timed: dict[Request, Request] = {}
         self._behind = slowest(protocol)
-        self.most = {function: protocol.most(function) for function in SPACES}
+        self.most: dict[tuple[Space | None, int], int] = {
+            (space, function): protocol.most(function, space)
+            for space in Space
+            for function in {space.read_function, *space.write_functions}
+        }
         self.unused, self.absences = unused, MissingRegisters()
         self._ground: AddressRanges | None = None
         self._absent: frozenset[str] = frozenset()
@@ -285,7 +289,7 @@ class Session:
 
         What is more than the device takes at once (a long text) is sent in portions.
         """
-        if request.quantity > self.most.get(request.function, request.quantity):
+        if request.quantity > self.most.get((request.space, request.function), request.quantity):
             return (yield from self._in_portions(request))
         asked = request
         if self.pages:
@@ -313,7 +317,9 @@ class Session:
 
     def portions(self, request: Request) -> list[Request]:
         """The requests that go out for one: several for what is longer than the device takes at once."""
-        return portions_of(request, self.most.get(request.function, request.quantity), self.registers.values())
+        return portions_of(
+            request, self.most.get((request.space, request.function), request.quantity), self.registers.values()
+        )
 
     def _in_portions(self, request: Request) -> Operation[tuple[int, ...]]:
         """Send a request by several; PartialWrite if the device takes some of a write, and refuses the next."""
@@ -334,7 +340,7 @@ class Session:
 
     def _on_its_page(self, request: Request) -> Operation[Request]:
         """The request as it goes out once its page is selected."""
-        page = SPACES[request.function].page(request.address) if request.function in SPACES else 0
+        page = request.space.page(request.address) if request.space else 0
         if page and self.pages[page - 1].at_once and request.function == READ_HOLDING:
             return self._selecting(request, page)
         if page:
@@ -366,7 +372,7 @@ class Session:
 
     def _clears(self, request: Request) -> bool:
         """Whether a read changed the device even if its answer was lost, so that a second one would tell nothing."""
-        space, end = READ_SPACES[request.function], request.address + request.quantity
+        space, end = request.space, request.address + request.quantity
         return any(
             view.space is space and address < end and request.address < address + view.words
             for register in self.registers.values()

@@ -50,7 +50,8 @@ def write_request(session: Session, view: View, address: int, words: Words) -> R
     """The request that writes words at an address in a view."""
     allowed = [code for code in session.protocol.functions if view.allows(code)]
     single, several = view.space.write_functions
-    function = single if len(words) == 1 and single in allowed else several
+    alone = len(words) == view.space.each and single in allowed
+    function = single if alone and (view.space.each == 1 or several not in allowed) else several
     return Request(function, address, len(words), words)
 
 

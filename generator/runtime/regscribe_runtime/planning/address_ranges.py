@@ -88,7 +88,7 @@ class AddressRanges:
         """The stretches of a space: what may be read, cut where alignment changes and where reading along ends."""
         aligned = list(_disjoint(self._aligned.get(space, [])))
         allowed = self._known.get(space, [])
-        if self.holes:
+        if self.holes and not space.part_bits:
             pages = sorted({0, *(space.page(first) for first, _ in allowed)})
             allowed = [(page << PAGE_BITS, page << PAGE_BITS | WIRE) for page in pages]
             allowed = [(first, last + 1) for first, last in allowed]
@@ -126,7 +126,7 @@ class AddressRanges:
             return "refused"
         if _touches(self._unreadable.get(space, ()), gap):
             return "unreadable"
-        if not self.holes and without([gap], self._known.get(space, ())):
+        if (not self.holes or space.part_bits) and without([gap], self._known.get(space, ())):
             return "hole"
         return "alignment"
 

@@ -29,7 +29,7 @@ class Block(NamedTuple):
     @property
     def space(self) -> Space:
         """The space that is read, or written."""
-        return self.items[0].space if self.items else written_space(self.function)
+        return self.items[0].space if self.items else written_space(self.function, self.address)
 
     @property
     def end(self) -> int:
@@ -55,7 +55,8 @@ class RequestLimits(NamedTuple):
         if space.is_whole:
             return space.most
         own = next((one.read for one in self.spaces if one.space is space), 0)
-        return min(space.most, own or (self.bits if space.is_bits else self.words))
+        most = min(space.most, space.each * own or (self.bits if space.is_bits else self.words))
+        return most - most % space.each
 
 
 class Terms(NamedTuple):
@@ -129,6 +130,16 @@ class Planned(NamedTuple):
     split: Split
     words: tuple[int, ...] = ()
 
+    @property
+    def quantity(self) -> int:
+        """The quantity that stands in the request."""
+        return self.block.quantity // self.block.space.each
+
+    @property
+    def carried(self) -> int:
+        """Addresses that its answer carries."""
+        return self.quantity if self.block.items else 0
+
 
 class Plan(NamedTuple):
     """The requests of a plan in the order of sending."""
@@ -143,7 +154,7 @@ class Plan(NamedTuple):
     @property
     def carried(self) -> int:
         """Addresses that the answers carry."""
-        return sum(one.block.quantity for one in self.requests if one.block.items)
+        return sum(one.carried for one in self.requests)
 
     @property
     def bytes(self) -> int:
@@ -220,7 +231,7 @@ def _reading(block: Block, reason: Split, terms: Terms) -> Planned:
     size = terms.cost.frame_bytes(block.space, block.quantity, len(words))
     ms = milliseconds(terms.tariff(block.space, block.address).of(block.quantity))
     sent = block._replace(function=WRITE_AND_READ) if words else block
-    return Planned(sent, len(wanted), size, ms, reason, words)
+    return Planned(sent, len(wanted) // block.space.each, size, ms, reason, words)
 
 
 def one_by_one(items: Iterable[RegisterSpan], terms: Terms) -> Plan:
@@ -259,10 +270,10 @@ def split(before: Block | None, block: Block, terms: Terms) -> Split:
         spelled = block.space.spelled
         where = f"{spelled(before.end)}..{spelled(block.address - 1)}" if gap > 0 else f"at {spelled(block.address)}"
         return Split(SplitReason(barred), GAPS[barred] if barred == "clears" else f"{GAPS[barred]} {where}")
-    if beyond := _beyond(before, block, terms.limits.most(block.space)):
+    if beyond := _beyond(before, block, terms.limits.most(block.space) // block.space.each):
         return Split(SplitReason.LIMIT, beyond)
     if barred:
-        return Split(SplitReason.ALIGNMENT, f"requests from {block.address} on must be aligned")
+        return Split(SplitReason.ALIGNMENT, f"requests from {block.space.spelled(block.address)} on must be aligned")
     tariff = terms.tariff(block.space, block.address)
     saved = tariff.of(block.end - before.address) - tariff.of(before.quantity) - tariff.of(block.quantity)
     return Split(SplitReason.CHEAPER, f"{gap} between, saves {milliseconds(saved):.1f} ms")
@@ -271,7 +282,8 @@ def split(before: Block | None, block: Block, terms: Terms) -> Split:
 def _beyond(before: Block, block: Block, most: int) -> str:
     """How far two neighbours together are more than a request may carry; empty where they are not."""
     long = next((one.items[0].words for one in (before, block) if one.quantity < one.items[0].words), 0)
+    each = block.space.each
     if long:
-        return f"a value of {long} in requests of its own, limit {most}"
-    together = block.end - before.address
+        return f"a value of {long // each} in requests of its own, limit {most}"
+    together = (block.end - before.address) // each
     return f"{together} together, limit {most}" if together > most else ""

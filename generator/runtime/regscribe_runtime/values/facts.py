@@ -104,7 +104,7 @@ class CommandStep(NamedTuple):
     @property
     def space(self) -> Space:
         """The address space that the function writes."""
-        return written_space(self.function)
+        return written_space(self.function, self.address)
 
 
 class Page(NamedTuple):

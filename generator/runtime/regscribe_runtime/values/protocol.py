@@ -92,16 +92,16 @@ class Protocol(NamedTuple):
         """The most addresses of a space in one read."""
         own = next((one.read for one in self.spaces if one.space is space), 0)
         usual = self.read_bits if space.is_bits else self.read_words
-        return space.most if space.is_whole else min(space.most, own or usual)
+        return space.most if space.is_whole else _whole(space, min(space.most, space.each * own or usual))
 
     def most_written(self, space: Space) -> int:
         """The most addresses of a space in one write."""
         own = next((one.write for one in self.spaces if one.space is space), 0)
-        return min(space.most, own or (self.write_bits if space.is_bits else self.write_words))
+        usual = self.write_bits if space.is_bits else self.write_words
+        return _whole(space, min(space.most, space.each * own or usual))
 
-    def most(self, function: int) -> int:
+    def most(self, function: int, space: Space) -> int:
         """The most addresses in one request of a function that reads or writes a space."""
-        space = next(one for one in Space if function in {one.read_function, *one.write_functions})
         return self.most_read(space) if function == space.read_function else self.most_written(space)
 
     @property
@@ -118,3 +118,8 @@ class Protocol(NamedTuple):
     def latency(self, function: int) -> Latency | None:
         """The latency of a function; None where the manual does not say."""
         return next((one for one in self.latencies if one.function == function), None)
+
+
+def _whole(space: Space, words: int) -> int:
+    """As many of so many words as are whole registers."""
+    return words - words % space.each

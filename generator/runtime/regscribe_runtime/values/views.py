@@ -86,7 +86,7 @@ class View(NamedTuple):
     def writable(self) -> bool:
         """Whether a write function of its space may address it, all words of a value at once."""
         single, several = self.space.write_functions or (0, 0)
-        return self.allows(several) or (self.words == 1 and self.allows(single))
+        return self.allows(several) or (self.words == self.space.each and self.allows(single))
 
     def needs(self) -> tuple[str, ...]:
         """The registers that set the orders of words and bytes and the factor, if any do."""

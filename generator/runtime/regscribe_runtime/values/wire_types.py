@@ -17,12 +17,18 @@ WRITE_AND_READ = 23
 """The function that writes holding registers and then reads some, in one request (V1.1b3, section 6.17)."""
 
 
+ENRON_BIT = 1 << 40
+"""Above all other bits of an address: it is that of a word in one of Enron's registers of 32 bits, two words each."""
+
+
 class Space(StrEnum):
     """A Modbus address space; `STATUS` is the single byte that function 07 returns (address 0).
 
     Each has the function that reads it, those that write one address and several, the most addresses of one read,
     and the last address (V1.1b3, section 6). A space of many parts (files of records, FIFO queues, objects) has the
-    part's number in the high bits of an address, above `part_bits` lower ones. Of a queue 0 is the count.
+    part's number in the high bits of an address, above `part_bits` lower ones. Of a queue 0 is the count. Enron's
+    registers of 32 bits are read and written by the functions of holding registers, and `each` of them is two words:
+    a part of a space of its own.
     """
 
     read_function: int
@@ -30,6 +36,7 @@ class Space(StrEnum):
     most: int
     part_bits: int
     last: int
+    each: int
 
     HOLDING = "holding", 3, (6, 16)
     INPUT = "input", 4
@@ -39,6 +46,7 @@ class Space(StrEnum):
     FILE = "file", 20, (21, 21), 121, 16, 9999
     QUEUE = "queue", 24, (), 32, 6, 31
     IDENTIFICATION = "identification", 43, (), 123, 8, 122
+    ENRON = "enron", 3, (6, 16), 124, 1, 1, 2
 
     def __new__(
         cls,
@@ -48,12 +56,13 @@ class Space(StrEnum):
         most: int = 125,
         part_bits: int = 0,
         last: int = 0xFFFF,
+        each: int = 1,
     ) -> Self:
         """The space of this name."""
         space = str.__new__(cls, name)
         space._value_ = name
         space.read_function, space.write_functions = read_function, write_functions
-        space.most, space.part_bits, space.last = most, part_bits, last
+        space.most, space.part_bits, space.last, space.each = most, part_bits, last, each
         return space
 
     def spelled(self, address: int, offset: int = 0) -> str:
@@ -70,6 +79,8 @@ class Space(StrEnum):
         """An address in its page, its file or its queue; of an object of the identification its number."""
         if self is Space.IDENTIFICATION:
             return address >> self.part_bits
+        if self is Space.ENRON:
+            return self.plain(address)
         return address & (1 << (self.part_bits or PAGE_BITS)) - 1
 
     def facts(self, address: int) -> dict[str, int]:
@@ -77,6 +88,14 @@ class Space(StrEnum):
         if self in PARTED:
             return {"address": self.inside(address), str(self): address >> self.part_bits}
         return {"address": self.inside(address)} | ({"page": page} if (page := self.page(address)) else {})
+
+    def plain(self, address: int) -> int:
+        """The address that stands in a request: of the 32-bit register that a word belongs to."""
+        return (address & ~ENRON_BIT) // 2 if self is Space.ENRON else address
+
+    def within(self, address: int, word: int = 0) -> int:
+        """The address of a word of the register at an address that stands in a request."""
+        return ENRON_BIT + 2 * address + word if self is Space.ENRON else address
 
     def page(self, address: int) -> int:
         """The number of the page that an address stands on; 0: on none."""
@@ -98,8 +117,10 @@ class Space(StrEnum):
         return not self.is_bits and self is not Space.STATUS
 
 
-def written_space(function: int) -> Space:
-    """The space that a function writes; holding registers for a function that writes none."""
+def written_space(function: int, address: int = 0) -> Space:
+    """The space that a function writes at an address; holding registers for a function that writes none."""
+    if address >= ENRON_BIT:
+        return Space.ENRON
     return next((space for space in Space if function in space.write_functions), Space.HOLDING)
 
 
@@ -109,15 +130,17 @@ PARTED = frozenset({Space.FILE, Space.QUEUE})
 
 def spelled_address(function: int, address: int) -> str:
     """The address of a request for people; see `Space.spelled`."""
-    return _space_of(function).spelled(address)
+    return _space_of(function, address).spelled(address)
 
 
 def address_facts(function: int, address: int) -> dict[str, int]:
     """The address of a request for programs; see `Space.facts`."""
-    return _space_of(function).facts(address)
+    return _space_of(function, address).facts(address)
 
 
-def _space_of(function: int) -> Space:
+def _space_of(function: int, address: int) -> Space:
+    if address >= ENRON_BIT:
+        return Space.ENRON
     return next((one for one in Space if function in {one.read_function, *one.write_functions}), Space.HOLDING)
 
 

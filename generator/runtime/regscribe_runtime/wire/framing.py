@@ -13,6 +13,7 @@ from pymodbus.pdu import DecodePDU
 
 from regscribe_runtime.values.serial_line import FRAMINGS
 from regscribe_runtime.wire.pdu import EXCEPTION_BIT
+from regscribe_runtime.wire.requests import BYTES_IN_WORD, WRITE_REGISTER
 
 TCP, RTU, ASCII = FRAMINGS
 LONGEST_PDU = 261
@@ -70,9 +71,14 @@ def rtu_size(data: bytes | bytearray, at: int, side: DecodePDU) -> int | None:
 
 
 def rtu_end(data: bytes | bytearray, at: int, side: DecodePDU) -> int:
-    """Where the RTU frame at `at` ends if it is whole and its CRC right, else 0."""
-    size = rtu_size(data, at, side)
-    return at + size if size and at + size <= len(data) and has_crc(data[at : at + size]) else 0
+    """Where the RTU frame at `at` ends if it is whole and its CRC right, else 0.
+
+    Function 06 writes two words where a register has 32 bits, as Enron's have.
+    """
+    size = rtu_size(data, at, side) or 0
+    sizes = (size, size + BYTES_IN_WORD) if size and data[at + 1] == WRITE_REGISTER else (size,)
+    ends = (at + each for each in sizes if each and at + each <= len(data))
+    return next((end for end in ends if has_crc(data[at:end])), 0)
 
 
 def has_crc(frame: bytes | bytearray) -> bool:

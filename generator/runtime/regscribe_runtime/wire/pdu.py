@@ -7,8 +7,8 @@ its answers.
 import struct
 from typing import Protocol
 
-from regscribe_runtime.values.wire_types import WRITE_AND_READ
-from regscribe_runtime.wire import identification, parts
+from regscribe_runtime.values.wire_types import ENRON_BIT, WRITE_AND_READ
+from regscribe_runtime.wire import enron, identification, parts
 from regscribe_runtime.wire import requests as functions
 from regscribe_runtime.wire.packing import (
     MalformedError,
@@ -63,6 +63,8 @@ def encode_request(request: Request) -> bytes:
     """Encode function code and data; ValueError for numbers beyond 16 bits."""
     function, address, quantity, words = request[:4]
     try:
+        if address >= ENRON_BIT:
+            return enron.encode_request(request)
         if function in WORD_READS or function in BIT_READS:
             return ADDRESSED.pack(function, address, quantity)
         if function == WRITE_AND_READ:
@@ -142,7 +144,7 @@ def encode_reply(reply: Reply) -> bytes:
     function, words, address, quantity, exception = reply
     if exception is not None:
         return bytes((function | EXCEPTION_BIT, exception))
-    if special := _FORMS.get(function):
+    if special := enron if address >= ENRON_BIT else _FORMS.get(function):
         return special.encode_reply(reply)
     if function in functions.BLOCK_WRITES:
         return ADDRESSED.pack(function, address, quantity)
@@ -157,6 +159,9 @@ def encode_reply(reply: Reply) -> bytes:
 def decode_reply(request: Request, pdu: bytes) -> Reply:
     """Decode an answer; one of a wrong length or byte count gets no words, so it fits no request."""
     code = pdu[0]
+    enrons = request.address >= ENRON_BIT and not code & EXCEPTION_BIT
+    if special := enron if enrons else _FORMS.get(code):
+        return special.decode_reply(request, pdu)
     if code in WORD_READS or code == WRITE_AND_READ:
         return _words_read(pdu)
     data = pdu[1:]
@@ -166,8 +171,6 @@ def decode_reply(request: Request, pdu: bytes) -> Reply:
         return _bits_read(code, data, request.quantity)
     if code == functions.READ_STATUS:
         return Reply(code, tuple(data))
-    if special := _FORMS.get(code):
-        return special.decode_reply(request, pdu)
     return _echoed(code, data)
 
 

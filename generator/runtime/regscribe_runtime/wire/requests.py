@@ -8,17 +8,19 @@ from typing import NamedTuple
 
 from regscribe_runtime.errors import ExceptionAnswer, PartialWrite, WrongAnswer
 from regscribe_runtime.values.protocol import Protocol
-from regscribe_runtime.values.wire_types import WRITE_AND_READ, Space
+from regscribe_runtime.values.wire_types import ENRON_BIT, WRITE_AND_READ, Space, spelled_address
 
 READ_COILS, READ_DISCRETE_INPUTS, READ_HOLDING, READ_INPUT = 1, 2, 3, 4
 WRITE_COIL, WRITE_REGISTER, READ_STATUS, LOOPBACK, WRITE_COILS, WRITE_REGISTERS = 5, 6, 7, 8, 15, 16
 READ_FILE, WRITE_FILE, READ_QUEUE = Space.FILE.read_function, Space.FILE.write_functions[0], Space.QUEUE.read_function
 MASK_REGISTER, IDENTIFY = 22, Space.IDENTIFICATION.read_function
-READ_SPACES = {space.read_function: space for space in Space}
+READ_SPACES = {space.read_function: space for space in Space if space is not Space.ENRON}
 READS = frozenset(READ_SPACES)
 WRITES = frozenset(function for space in Space for function in space.write_functions)
-SPACES = READ_SPACES | {function: space for space in Space for function in space.write_functions}
-"""By function: the space that it reads or writes."""
+SPACES = READ_SPACES | {
+    function: space for space in Space for function in space.write_functions if space is not Space.ENRON
+}
+"""By function: the space that it reads or writes, but for Enron's registers (see `Request.space`)."""
 WORD_READS, BIT_READS = (READ_HOLDING, READ_INPUT), (READ_COILS, READ_DISCRETE_INPUTS)
 BLOCK_WRITES = (WRITE_COILS, WRITE_REGISTERS)
 """Writes of several values: a byte count announces them, and the answer has only their number."""
@@ -54,6 +56,11 @@ class Request(NamedTuple):
     into: int = 0
 
     @property
+    def space(self) -> Space | None:
+        """The space that it reads or writes; None where its function names none."""
+        return Space.ENRON if self.address >= ENRON_BIT else SPACES.get(self.function)
+
+    @property
     def fetches(self) -> bool:
         """Whether its answer has what registers hold."""
         return self.function in READS or self.function == WRITE_AND_READ
@@ -79,7 +86,8 @@ class Request(NamedTuple):
         """The request with its address moved, if its function has one: JBUS counts from 1 where Modbus does from 0."""
         if not steps or self.function in UNADDRESSED:
             return self
-        part_bits = Space.QUEUE.part_bits if self.function == READ_QUEUE else 0
+        space = self.space
+        part_bits = space.part_bits if space is Space.QUEUE or space is Space.ENRON else 0
         into = self.into + steps if self.function == WRITE_AND_READ else 0
         return self._replace(address=self.address + (steps << part_bits), into=into)
 
@@ -116,7 +124,8 @@ def sizes(request: Request) -> tuple[int, int]:
     }
     if function in special:
         return special[function]
-    whole = 1 + HEAD_SIZE + (BYTES_IN_WORD if function == MASK_REGISTER else 0)
+    more = function == MASK_REGISTER or (function == WRITE_REGISTER and request.space is Space.ENRON)
+    whole = 1 + HEAD_SIZE + (BYTES_IN_WORD if more else 0)
     return whole, 2 + values if request.reads else whole
 
 
@@ -139,12 +148,15 @@ def verify(request: Request, reply: Reply, *, unit: int, protocol: Protocol) -> 
         )
     if reply.function == request.function and request.fetches and len(reply.words) == request.quantity:
         return reply.words
-    asked = f"unit {unit}, function {request.function:02d}, address {request.address}"
+    where = spelled_address(request.function, request.address)
+    asked = f"unit {unit}, function {request.function:02d}, address {where}"
     if reply.function != request.function:
         message = f"{asked}: the answer is to function {reply.function:02d}"
         raise WrongAnswer(message)
     if request.fetches:
         message = f"{asked}: {len(reply.words)} values came where {request.quantity} were asked for"
+        if request.space is Space.ENRON:
+            message += ": in space enron each register is two words (four bytes); is this a holding register?"
         raise WrongAnswer(message)
     _verify_echo(request, reply, unit=unit, asked=asked)
     return reply.words
@@ -152,7 +164,7 @@ def verify(request: Request, reply: Reply, *, unit: int, protocol: Protocol) -> 
 
 def _verify_echo(request: Request, reply: Reply, *, unit: int, asked: str) -> None:
     if reply.address != request.address:
-        message = f"{asked}: the answer names address {reply.address}"
+        message = f"{asked}: the answer names address {spelled_address(reply.function, reply.address)}"
         raise WrongAnswer(message)
     if request.function in BLOCK_WRITES:
         if reply.quantity < len(request.words):

@@ -4,6 +4,7 @@ from abc import ABC, abstractmethod
 
 from regscribe_runtime.wire import framing
 from regscribe_runtime.wire.framing import MBAP_HEAD, REQUESTS, SHORTEST_RTU, Frame
+from regscribe_runtime.wire.requests import BYTES_IN_WORD, WRITE_REGISTER
 
 
 class Framer(ABC):
@@ -122,7 +123,8 @@ def _is_unfinished(data: bytes) -> bool:
     size = framing.rtu_size(data, 0, REQUESTS)
     if size is None:
         return len(data) < framing.LONGEST_RTU and not _next_sound(data)
-    return size == 0 or len(data) < size
+    may_be_longer = data[1] == WRITE_REGISTER and len(data) < (size or 0) + BYTES_IN_WORD and not _next_sound(data)
+    return size == 0 or len(data) < size or may_be_longer
 
 
 def _next_sound(data: bytes) -> int:
