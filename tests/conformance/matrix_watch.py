@@ -130,6 +130,8 @@ class Subject:
     def hold(self, view: Any, words: tuple[int, ...], state: dict[int, int]) -> None:
         """Let the device hold words, and nothing be remembered."""
         self.memory.clear()
+        views = [view for view in self.declared.views if view.space is Space.ENRON]
+        self.memory.long = {view.space.plain(view.address(self.declared.at)) for view in views}
         self.device.session.forget()
         most = {"coil": 1, "discrete": 1, "status": 0xFF}.get(view.space, 0xFFFF)
         self.memory.put(view.space, view.address(self.declared.at), [word & most for word in words])
@@ -231,11 +233,16 @@ def _lived(device: SimulatedDevice, register: Register, state: dict[int, int], n
 
 
 def _written(device: SimulatedDevice, register: Register, view: View, words: tuple[int, ...]) -> Iterator[object]:
-    start = view.address(register.at)
+    start = view.space.plain(view.address(register.at))
     where = start.to_bytes(2, "big")
     if view.space is Space.HOLDING:
         yield from (device.handle(_write(address, words)) for address in (start, *SPARE))
         yield device.handle(bytes([6]) + where + words[-1].to_bytes(2, "big"))
+    elif view.space is Space.ENRON:
+        data = b"".join(word.to_bytes(2, "big") for word in words)
+        count = (len(data) // 4).to_bytes(2, "big") + bytes([len(data)])
+        yield device.handle(bytes([16]) + where + count + data)
+        yield device.handle(bytes([6]) + where + data[-4:])
     elif view.space is Space.COIL:
         yield device.handle(bytes([5]) + where + (b"\xff\0" if words[-1] else b"\0\0"))
 
@@ -251,8 +258,8 @@ def _seen(device: SimulatedDevice, register: Register) -> Iterator[object]:
     for view in register.views:
         function = judges.READ_FUNCTIONS[view.space.value]
         yield device.handle(b"\x07") if function == STATUS else None
-        for address in (view.address(register.at), *SPARE):
-            yield device.handle(_read(function, address, view.words))
+        for address in (view.space.plain(view.address(register.at)), *SPARE):
+            yield device.handle(_read(function, address, view.words // view.space.each))
 
 
 def _read(function: int, address: int, count: int) -> bytes:

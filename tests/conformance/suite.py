@@ -39,9 +39,9 @@ class Case(NamedTuple):
         return self.name
 
     @property
-    def is_long(self) -> bool:
-        """Whether its registers have 32 bits."""
-        return "enron" in str(self.map)
+    def long(self) -> range:
+        """The addresses of registers of 32 bits: all or none."""
+        return range(0x10000 if "enron" in str(self.map) else 0)
 
 
 class Built(NamedTuple):

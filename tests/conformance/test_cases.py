@@ -38,7 +38,7 @@ def _built(case: Case) -> Built:
 
 def _prepare(memory: Memory, case: Case, row: Json) -> None:
     memory.clear()
-    memory.long = case.is_long
+    memory.long = case.long
     for held in (case.holds, row.get("holds", {})):
         for space, cells in held.items():
             for address, text in cells.items():

@@ -196,7 +196,7 @@ def test_the_plan_of_a_case_is_what_its_driver_sends(case: Case, server: Server,
     device = build(whole_map(case.map)).module.CaseA
     chance = random.Random(case.name)  # noqa: S311 (found again by its name)
     server.memory.clear()
-    server.memory.long = case.is_long
+    server.memory.long = case.long
     for space, cells in case.holds.items():
         for address, held in cells.items():
             server.memory.put(space, int(address), words_of(held))
@@ -228,6 +228,7 @@ def differences(parts: Json, seed: int, server: Server, path: Path) -> list[str]
     trial = Trial(Built(register_map, module_of(code)), chance)
     trial.hold()
     server.memory.cells, device = trial.memory.cells, type(trial.plain)
+    server.memory.long = range(0)
     with bench(path, parts, device, server) as made:
         return list(made.differences(*everything(device), *(of_ids(device, chance) for _ in range(FEW_IDS))))
 

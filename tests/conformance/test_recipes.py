@@ -109,7 +109,7 @@ def _driver(row: Row, server: Server, givens: str) -> Any:
 @pytest.mark.parametrize("row", list(rows()), ids=repr)
 def test_what_a_recipe_says_comes_over_the_wire(row: Row, server: Server) -> None:
     _memory(server.memory, row.holds)
-    server.memory.long = "enron" in row.text
+    server.memory.long = range(0x10000 if "enron" in row.text else 0)
     asks, _, givens = row.asks.partition("` with `")
     with _driver(row, server, givens) as device:
         names = {name: getattr(device, name) for name in dir(device) if not name.startswith("_")}

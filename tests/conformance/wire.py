@@ -15,7 +15,7 @@ LONG = 1 << 40
 class Memory:
     """What the addresses of each space hold (0 where nothing was put), and the requests that came: PDUs in order.
 
-    Where it is `long`, registers have 32 bits, of space `enron`: two words each, from LONG + twice the address on.
+    At addresses that are `long` a register has 32 bits, of space `enron`: two words, from LONG + twice the address on.
     """
 
     def __init__(self) -> None:
@@ -25,7 +25,7 @@ class Memory:
         """Forget everything."""
         self.cells: dict[str, dict[int, int]] = defaultdict(dict)
         self.log: list[bytes] = []
-        self.long = False
+        self.long: range | set[int] = range(0)
 
     def put(self, space: str, address: int, words: list[int]) -> None:
         """Set words (or bits) from an address on."""
@@ -44,7 +44,7 @@ class Memory:
         if function == 7:
             return bytes([7, self.get("status", 0, 1)[0]])
         forms = {20: self._records, 21: self._records, 24: self._queue, 43: self._object}
-        forms |= dict.fromkeys((3, 6, 16), self._long) if self.long else {}
+        forms |= dict.fromkeys((3, 6, 16), self._long) if int.from_bytes(pdu[1:3], "big") in self.long else {}
         if special := forms.get(function):
             return special(pdu)
         address, number = struct.unpack(">HH", pdu[1:5])
