@@ -53,7 +53,8 @@ class TakenAddresses:
 
     def __str__(self) -> str:
         spelled = self.space.spelled
-        where = spelled(self.first) if self.first == self.last else f"{spelled(self.first)}..{spelled(self.last)}"
+        ends = dict.fromkeys(map(spelled, (self.first, self.last)))
+        where = "..".join(ends)
         inside = f" of block {self.register.block}" if self.register.block else ""
         return f"{self.space} {where}{inside}{f' ({self.by})' if self.by else ''}"
 

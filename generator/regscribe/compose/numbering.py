@@ -131,7 +131,7 @@ class _Rows:
         found = next(iter(spaces), stated or space)
         if spaces and not stated and found != (space or "holding"):
             node = put(node, "space", SourceNode(found, node.place))
-        written = "coil" if found in _BITS else "holding"
+        written = "coil" if found in _BITS else found if found == "enron" else "holding"
         node = self._converted(node, ("write_at",), written, set())
         for key, each in members(node).items():
             said = (written, written) if key == "write" else (found, stated)
