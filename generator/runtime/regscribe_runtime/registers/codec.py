@@ -230,7 +230,7 @@ def _scaled(register: Coded, view: View, state: State, givens: Givens) -> Conver
 
 def _code(register: Coded, view: View, wire: float) -> int:
     """The code that a number on the wire is; NotDecodable where it is no whole number."""
-    if not math.isfinite(wire):
+    if math.isnan(wire) or math.isinf(wire):
         raise NotDecodable(register.path, f"the {view.name} view holds {wire}, which is no code")
     code = _exactly(view, wire) / Fraction(view.factor)
     if code.denominator != 1:
