@@ -287,10 +287,10 @@ class Session:
     def exchange(self, request: Request) -> Operation[tuple[int, ...]]:
         """Send one request and verify its answer; a read is sent again as `retry` says, a write never.
 
-        What is more than the device takes at once (a long text) is sent in portions.
+        A value that is more than the device takes at once (a long text) is sent in portions.
         """
-        if request.quantity > self.most.get((request.space, request.function), request.quantity):
-            return (yield from self._in_portions(request))
+        if len(portions := self.portions(request)) > 1:
+            return (yield from self._in_portions(request, portions))
         asked = request
         if self.pages:
             request = yield from self._on_its_page(request)
@@ -316,15 +316,14 @@ class Session:
             yield Pause(self._tries.pause)
 
     def portions(self, request: Request) -> list[Request]:
-        """The requests that go out for one: several for what is longer than the device takes at once."""
-        return portions_of(
-            request, self.most.get((request.space, request.function), request.quantity), self.registers.values()
-        )
+        """The requests that go out for one: several for a value that is longer than the device takes at once."""
+        most = self.most.get((request.space, request.function), request.quantity)
+        return portions_of(request, most, self.registers.values())
 
-    def _in_portions(self, request: Request) -> Operation[tuple[int, ...]]:
+    def _in_portions(self, request: Request, portions: list[Request]) -> Operation[tuple[int, ...]]:
         """Send a request by several; PartialWrite if the device takes some of a write, and refuses the next."""
         words: tuple[int, ...] = ()
-        for portion in self.portions(request):
+        for portion in portions:
             try:
                 words += yield from self.exchange(portion)
             except (ExceptionAnswer, PartialWrite) as error:
