@@ -54,7 +54,7 @@ fuzz: $(INSTALLED) ## random maps in thousands (FUZZ_MAPS=..): drivers, referenc
 
 conformance: $(INSTALLED) ## what the language means, as bytes and values: the cases of tests/conformance, by everybody who is judged
 	$(BIN)/pytest -q -n 2 -m "not slow" tests/conformance
-	$(BIN)/pytest -q -m slow tests/conformance/test_matrix.py
+	$(BIN)/pytest -q -m slow tests/conformance/test_matrix.py tests/conformance/test_matrix_keys.py
 
 mutate: $(INSTALLED) ## break scales, codes, addresses, orders and limits: the tests must notice each
 	$(BIN)/python tests/system/mutate/run.py

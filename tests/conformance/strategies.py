@@ -362,9 +362,8 @@ def _array(name: str, stride: int, registers: list[Json], repeat: Any = "1..2") 
 
 
 def _repeat(draw: Draw) -> Any:
-    """Both elements, or as many as a register says; the others then follow without a gap, or stay where they are."""
-    counted: Json = {"from": 1, "to": "count", "most": 2}
-    return _of(draw, "1..2", "1..2", counted, counted | {"packed": True})
+    """Both elements, or as many as a register says."""
+    return _of(draw, "1..2", {"from": 1, "to": "count", "most": 2})
 
 
 def _placed(draw: Draw, deciders: list[Json], registers: list[Json]) -> list[Json]:

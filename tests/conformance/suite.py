@@ -104,15 +104,15 @@ def whole_map(parts: Json) -> str:
         **tables,
         "groups": parts.get("groups", [group]),
     }
-    return dump(_plain(document))
+    return dump(plain(document))
 
 
-def _plain(value: Any) -> Any:
+def plain(value: Any) -> Any:
     """Decimals as floats, which YAML writes as their shortest decimals."""
     if isinstance(value, dict):
-        return {key: _plain(each) for key, each in value.items()}
+        return {key: plain(each) for key, each in value.items()}
     if isinstance(value, list):
-        return [_plain(each) for each in value]
+        return [plain(each) for each in value]
     return float(value) if isinstance(value, Decimal) else value
 
 

@@ -76,7 +76,7 @@ def _session(driver: Any) -> Session:  # noqa: ANN401 (as above)
         protocol=driver.protocol,
         registers=driver.registers,
         commands={},
-        givens=_givens(driver) | {block.given: headers[block.id].base for block in blocks if block.given},
+        givens=givens_of(driver) | {block.given: headers[block.id].base for block in blocks if block.given},
         unused=unused_of(driver),
         blocks=blocks,
     )
@@ -89,7 +89,7 @@ def _session(driver: Any) -> Session:  # noqa: ANN401 (as above)
     return session
 
 
-def _givens(driver: Any) -> defaultdict[str, Any]:  # noqa: ANN401 (as above)
+def givens_of(driver: Any) -> defaultdict[str, Any]:  # noqa: ANN401 (as above)
     """What a driver is given: its defaults, else the first choice, 1, or no codes."""
     found: defaultdict[str, Any] = defaultdict(frozenset)
     for one in inspect.signature(driver.__init__).parameters.values():
