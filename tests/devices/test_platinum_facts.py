@@ -40,7 +40,7 @@ def test_bits_are_called_bits_in_the_examples() -> None:  # 3.1, 3.5 and 3.8
     assert "unit 17, function 01, address 3, 12 bits" in text
     assert "unit 12, function 15, address 0, 4 bits" in text
     assert "unit 47, function 05, address 3<br>bit on" in text
-    assert "unit 25, function 03, address 68, 3 words" in text
+    assert "unit 25, function 03, address 68, 3 registers" in text
 
 
 @pytest.mark.parametrize("name", NAMES)

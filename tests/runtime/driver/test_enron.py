@@ -6,9 +6,11 @@ from typing import Any
 
 import pytest
 
+from regscribe.emit import markdown
 from regscribe.simulate import simulate
 from regscribe.simulate.device.describe import tell
 from regscribe.simulate.device.device import SimulatedDevice
+from regscribe.simulate.line.server_context import ServerContext
 from regscribe.simulate.line.service import Exchange
 from regscribe.tools.live.decode import Decoder
 from regscribe.tools.live.dry_run import dry
@@ -153,6 +155,34 @@ def test_bytes_and_requests_are_each_others_meaning() -> None:
     for text in ("03 1389", "06 1389 0001", "10 1389 0002 04 00000001", "10 1389 0001 02 0001", "03 1389 0002 00"):
         with pytest.raises(MalformedError):
             enron.decode_request(bytes.fromhex(text))
+
+
+@pytest.mark.parametrize(
+    ("asked", "words"),
+    [("03 1389 0002", 4), ("10 1389 0001 04 00000005", 2), ("06 138A 00010000", 2), ("03 0BB9 0001", 1)],
+)
+def test_each_counts_as_two_words_of_the_time_that_a_device_takes(
+    build: Callable[[str], Any], asked: str, words: int
+) -> None:
+    times = ", ".join(f"{function}: {{fixed: 10..10, per_word: 5..5}}" for function in (3, 6, 16))
+    built = build(MAP.replace("space_limits", f"latency: {{{times}}}, space_limits"))
+    context = ServerContext([SimulatedDevice(built.map, "A", unit=1)], factor=1.0)
+
+    assert context.delay(Frame(1, bytes.fromhex(asked))) == pytest.approx((10 + 5 * words) / 1000)
+
+
+FRAMES = """
+examples:
+  - {source: "3", frame: 01 03 13 89 00 02, crc: false, address: 5001, count: 2}
+  - {source: "3", frame: 01 10 13 89 00 01 04 00 01 11 70, crc: false, writes: {total: 70000}}
+"""
+
+
+def test_the_docs_count_them_as_the_manual_does_in_frames(build: Callable[[str], Any]) -> None:
+    ((_, page),) = markdown.render(build(MAP + FRAMES).map).items()
+
+    assert "function 03, address 5001, 2 registers" in page
+    assert "words" not in page.partition("01 03 13 89")[2].partition("\n")[0]
 
 
 def test_dry_runs_captures_and_the_simulator_understand_them(device: Any) -> None:

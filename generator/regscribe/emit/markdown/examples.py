@@ -82,7 +82,9 @@ def _frame(context: PageContext, item: FrameExample) -> tuple[str, ...]:
 def _meaning(context: PageContext, item: FrameExample) -> Md:
     facts = [f"unit {item.unit}", f"function {item.function:02d}"]
     facts += [f"address {item.address}"] if item.address is not None else []
-    facts += [f"{item.count} {'bits' if item.function in BIT_FUNCTIONS else 'words'}"] if item.count is not None else []
+    facts += (
+        [f"{item.count} {'bits' if item.function in BIT_FUNCTIONS else 'registers'}"] if item.count is not None else []
+    )
     writes = _state(context, item.model, item.writes)
     command = context.command(item.command) if item.command else Md()
     return lines(escape(", ".join(facts)), writes or escape(_words(item)), command)

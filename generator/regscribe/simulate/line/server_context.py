@@ -11,13 +11,13 @@ from regscribe_runtime.values.serial_line import SerialLine
 from regscribe_runtime.values.wire_types import WRITE_AND_READ
 from regscribe_runtime.wire.framing import Frame
 from regscribe_runtime.wire.packing import MalformedError
-from regscribe_runtime.wire.pdu import decode_request, encode_reply
-from regscribe_runtime.wire.requests import READ_HOLDING, READ_INPUT, WRITE_REGISTERS, Reply
+from regscribe_runtime.wire.pdu import encode_reply
+from regscribe_runtime.wire.requests import READ_HOLDING, READ_INPUT, WRITE_REGISTER, WRITE_REGISTERS, Reply
 
 BROADCAST = 0
 NO_RESPONSE_FROM_TARGET = 0x0B
 NAMED = {"off": 0.0, "real": 1.0}
-WORDS_COUNTED = frozenset({READ_HOLDING, READ_INPUT, WRITE_REGISTERS})
+WORDS_COUNTED = frozenset({READ_HOLDING, READ_INPUT, WRITE_REGISTER, WRITE_REGISTERS})
 REPEATED = {WRITE_AND_READ: WRITE_REGISTERS}
 """Functions that take as long as another."""
 
@@ -100,17 +100,17 @@ class ServerContext:
         latency = device.register_map.protocol.latency(REPEATED.get(function, function))
         if latency is None:
             return 0.0
-        words = _words(request.pdu)
+        words = _words(device, request.pdu)
         low = float(latency.minimum + words * latency.minimum_per_word)
         high = float(latency.longest(words))
         milliseconds = self._random[device].uniform(low, high)
         return self.factor * (milliseconds / 1000 + float(latency.characters) * self._line.character)
 
 
-def _words(pdu: bytes) -> int:
-    """Number of registers in a request, for the part of the latency that counts them."""
+def _words(device: SimulatedDevice, pdu: bytes) -> int:
+    """Number of words in a request, for the part of the latency that counts them."""
     try:
-        request = decode_request(pdu)
+        request = device.understood(pdu)
     except MalformedError:
         return 1
     return request.quantity if request.function in WORDS_COUNTED else 1
