@@ -10,7 +10,7 @@ from regscribe.cli.shared.output import print_json, remark, show_table
 from regscribe.cli.shared.target_options import driver_options
 from regscribe.tools.live import catalogue, givens, names, value_text
 from regscribe.tools.live import config as configuration
-from regscribe_runtime import Register
+from regscribe_runtime import Computed, Register
 from regscribe_runtime.driver.identify import Known
 
 ACCESS = {"r": "read", "w": "write", "rw": "read, write"}
@@ -18,7 +18,7 @@ ACCESS = {"r": "read", "w": "write", "rw": "read, write"}
 
 @click.command(epilog="Example: regscribe devices athena\n\nExit code 0: found, 1: nothing found, 2: wrong usage.")
 @click.argument("search", nargs=-1, metavar="[WORD]...", shell_complete=complete_model)
-@click.option("--registers", is_flag=True, help="List the registers, groups and commands of the model.")
+@click.option("--registers", is_flag=True, help="List registers, computed values, groups and commands of the model.")
 @driver_options
 def command(
     *, search: tuple[str, ...], registers: bool, packages: tuple[str, ...], config: str | None, as_json: bool
@@ -67,16 +67,20 @@ def _plain(known: Known) -> dict[str, Any]:
 
 def _show_registers(known: Known, *, as_json: bool) -> None:
     driver = known.driver
-    groups, commands = names.groups_of(driver), names.commands_of(driver)
+    groups, commands, computed = names.groups_of(driver), names.commands_of(driver), names.computed_of(driver)
     if as_json:
         print_json(
             **_plain(known) | {"registers": [_register(one) for one in driver.registers.values()]},
+            computed=[_computed(one) for one in computed.values()],
             groups={name: {"name": group.name, "members": list(group.members)} for name, group in groups.items()},
             commands={name: {"danger": one.danger} for name, one in commands.items()},
         )
         return
     rows = [(one.path, ACCESS[one.access], one.kind, _units(one), one.section) for one in driver.registers.values()]
     show_table(("REGISTER", "ACCESS", "KIND", "UNIT", "SECTION"), rows, title=f"{known.model}: registers")
+    if computed:
+        of_each = [(one.path, one.unit, ", ".join(one.needs)) for one in computed.values()]
+        show_table(("VALUE", "UNIT", "COMPUTED FROM"), of_each, title="computed values")
     show_table(("GROUP", "NAME"), [(name, one.name) for name, one in groups.items()], title="groups")
     show_table(("COMMAND", "DANGER"), [(name, one.danger) for name, one in commands.items()], title="commands")
 
@@ -100,3 +104,7 @@ def _register(register: Register[Any]) -> dict[str, Any]:
         "words": view.words,
         "section": register.section,
     }
+
+
+def _computed(one: Computed) -> dict[str, Any]:
+    return {"name": one.path, "unit": one.unit, "computed_from": list(one.needs)}

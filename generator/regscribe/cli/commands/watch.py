@@ -4,7 +4,6 @@ import sys
 from collections.abc import Iterator, Sequence
 from contextlib import closing, nullcontext
 from pathlib import Path
-from typing import Any
 
 import click
 
@@ -17,7 +16,7 @@ from regscribe.tools.live import log as logs
 from regscribe.tools.live import names
 from regscribe.tools.live.target import Target
 from regscribe.tools.live.watch import GaveUp, Round, watch
-from regscribe_runtime import Register
+from regscribe_runtime import Computed
 
 
 @click.command(
@@ -60,17 +59,21 @@ def command(
     every_name = (*wanted, *charts)
     with opened(target, check=lambda driver: names.chosen(driver, every_name)) as device:
         named = names.chosen(type(device), every_name)
-        registers = [one for one in named if one.reading.poll != "never" or one.path in every_name]
+        followed = [one for one in named if one.path in every_name or _is_followed(one)]
         curves = [one.path for one in names.chosen(type(device), charts)]
-        rounds = watch(device, registers, every=every, count=count, give_up=give_up)
+        rounds = watch(device, followed, every=every, count=count, give_up=give_up)
         try:
             with closing(logs.open_log(log_path, str(target))) if log_path else nullcontext() as log:
-                _follow(_logged(rounds, log), registers, curves, str(target), as_json=as_json)
+                _follow(_logged(rounds, log), followed, curves, str(target), as_json=as_json)
         except GaveUp as end:
             raise failure(end.error) from None
         except logs.LogError as error:
             raise Failure(str(error), kind="log", code=REFUSED) from None
     return 0
+
+
+def _is_followed(one: names.Readable) -> bool:
+    return isinstance(one, Computed) or one.reading.poll != "never"
 
 
 def _logged(rounds: Iterator[Round], log: logs.TextLog | logs.SqliteLog | None) -> Iterator[Round]:
@@ -81,9 +84,9 @@ def _logged(rounds: Iterator[Round], log: logs.TextLog | logs.SqliteLog | None) 
 
 
 def _follow(
-    rounds: Iterator[Round], registers: Sequence[Register[Any]], curves: Sequence[str], device: str, *, as_json: bool
+    rounds: Iterator[Round], followed: Sequence[names.Readable], curves: Sequence[str], device: str, *, as_json: bool
 ) -> None:
-    screen = Screen(device, [one.path for one in registers], curves)
+    screen = Screen(device, [one.path for one in followed], curves)
     if as_json:
         for one in rounds:
             print_json_line(**logs.plain(one, device))

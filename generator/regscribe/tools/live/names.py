@@ -4,10 +4,11 @@ from collections.abc import Iterable, Iterator, Mapping, Sequence
 from typing import Any
 
 from regscribe.tools.live.errors import MOST_NAMED, TargetError, unknown
-from regscribe_runtime import AnyCommand, Group, Register, SubPart
+from regscribe_runtime import AnyCommand, Computed, Group, Register, SubPart
 from regscribe_runtime.driver.device import AsyncBareDevice, BareDevice
 
 Driver = type[BareDevice] | type[AsyncBareDevice]
+Readable = Register[Any] | Computed
 
 
 def groups_of(driver: Driver) -> dict[str, Group]:
@@ -15,6 +16,12 @@ def groups_of(driver: Driver) -> dict[str, Group]:
     declared = getattr(driver, "groups", None)
     found = {name: value for name, value in vars(declared).items() if isinstance(value, Group)} if declared else {}
     return {name: group for name, group in found.items() if group.registers(driver)}
+
+
+def computed_of(driver: Driver) -> dict[str, Computed]:
+    """The computed values of a driver by id."""
+    declared = (pair for base in reversed(driver.__mro__) for pair in vars(base).items())
+    return {name: value for name, value in declared if isinstance(value, Computed)}
 
 
 def commands_of(driver: Driver) -> dict[str, AnyCommand]:
@@ -27,6 +34,9 @@ def register_named(driver: Driver, name: str) -> Register[Any]:
     """The one register of that path; TargetError says which was probably meant."""
     if name in driver.registers:
         return driver.registers[name]
+    if name in (computed := computed_of(driver)):
+        message = f"`{name}` is no register of {driver.model}: it is {computed_from(computed[name])}"
+        raise TargetError(message)
     below = [path for path in driver.registers if path.startswith((f"{name}.", f"{name}["))] if name else []
     if below:
         message = f"`{name}` is not one register of {driver.model} but several: {', '.join(below[:MOST_NAMED])}"
@@ -42,14 +52,19 @@ def command_named(driver: Driver, name: str) -> AnyCommand:
     raise TargetError(unknown("command", name, known, where=f"in {driver.model}"))
 
 
-def chosen(driver: Driver, names: Iterable[str]) -> list[Register[Any]]:
-    """The readable registers of paths, groups, arrays and elements of arrays; each once, in this order.
+def computed_from(one: Computed) -> str:
+    """What a computed value follows from: `computed from power_1, power_2`."""
+    return f"computed from {', '.join(one.needs)}"
+
+
+def chosen(driver: Driver, names: Iterable[str]) -> list[Readable]:
+    """The computed values and the readable registers of paths, groups, arrays and elements; each once, in this order.
 
     TargetError for a name that is none, and for a register that cannot be read.
     """
-    found: dict[str, Register[Any]] = {}
+    found: dict[str, Readable] = {}
     for name in names:
-        found.update((register.path, register) for register in _chosen(driver, name))
+        found.update((one.path, one) for one in _chosen(driver, name))
     return list(found.values())
 
 
@@ -58,25 +73,34 @@ def readable(driver: Driver) -> list[Register[Any]]:
     return [register for register in driver.registers.values() if register.is_read_along]
 
 
+def computable(driver: Driver) -> list[Computed]:
+    """Every computed value of a driver whose registers are read where all are."""
+    known = {register.path for register in readable(driver)}
+    return [one for one in computed_of(driver).values() if known.issuperset(one.needs)]
+
+
 def completions(driver: Driver) -> Iterator[tuple[str, str]]:
-    """Names that `chosen` accepts, each with a hint: registers first, then groups, then arrays."""
+    """Names that `chosen` accepts, each with a hint: registers first, then what is computed, groups, arrays."""
     yield from ((path, register.section) for path, register in driver.registers.items())
+    yield from ((name, computed_from(one)) for name, one in computed_of(driver).items())
     yield from ((name, group.name) for name, group in groups_of(driver).items())
     yield from ((name, "") for name in dict.fromkeys(path.split(".")[0] for path in driver.registers if "." in path))
 
 
-def _chosen(driver: Driver, name: str) -> Sequence[Register[Any]]:
+def _chosen(driver: Driver, name: str) -> Sequence[Readable]:
     if name in driver.registers:
         if driver.registers[name].access == "w":
             message = f"`{name}` can only be written"
             raise TargetError(message)
         return [driver.registers[name]]
-    groups = groups_of(driver)
+    computed, groups = computed_of(driver), groups_of(driver)
+    if name in computed:
+        return [computed[name]]
     if name in groups:
         return groups[name].registers(driver)
     below = [one for one in readable(driver) if one.path.startswith((f"{name}.", f"{name}["))] if name else []
     if not below:
-        known = [*_nearest(name, driver.registers), *groups]
+        known = [*_nearest(name, driver.registers), *computed, *groups]
         raise TargetError(unknown("register or group", name, known, where=f"in {driver.model}"))
     return below
 

@@ -3,17 +3,19 @@
 from collections.abc import Callable, Iterable, Mapping, Sequence
 from typing import Any, NamedTuple
 
-from regscribe.tools.live.value_text import Plain, as_text, is_number, show
-from regscribe_runtime import Register, RegscribeError, Snapshot
+from regscribe.tools.live.names import Readable
+from regscribe.tools.live.value_text import Plain, as_text, is_number, show, text_of
+from regscribe_runtime import Computed, Register, RegscribeError, Snapshot
 from regscribe_runtime.errors import ValueNotDecodable
 from regscribe_runtime.operations import tasks
+from regscribe_runtime.operations.compute import computed
 from regscribe_runtime.operations.read import know
 from regscribe_runtime.operations.session import Operation, Session, Task
 from regscribe_runtime.values.conditions import choose, registers_of
 
 
 class RegisterReading(NamedTuple):
-    """The value of a register: plain, as `text` for people, and with its `unit`; or the `error` instead."""
+    """A value of a register or a computed one: plain, as `text` for people, with its `unit`; or the `error` instead."""
 
     name: str
     value: Plain | None
@@ -29,23 +31,35 @@ class RegisterReading(NamedTuple):
         return f"{self.text} {self.unit}".rstrip()
 
 
-def readings(registers: Sequence[Register[Any]]) -> Task[tuple[RegisterReading, ...]]:
-    """Read registers in few requests, each with its present unit."""
+def readings(wanted: Sequence[Readable]) -> Task[tuple[RegisterReading, ...]]:
+    """Read registers and computed values in few requests, each with its present unit."""
 
     def task(session: Session) -> Operation[tuple[RegisterReading, ...]]:
-        snapshot = yield from read_with(registers, unit_needs)(session)
-        found = []
-        for register in registers:
-            path, unit = register.path, unit_of(register, snapshot.valid, session.givens)
-            try:
-                plain, text = show(register, snapshot[path]), as_text(register, snapshot[path])
-            except RegscribeError as error:
-                found.append(RegisterReading(path, None, "", unit, error))
-            else:
-                found.append(RegisterReading(path, plain, text, unit if is_number(plain) else "", None))
-        return tuple(found)
+        along = {path for one in wanted if isinstance(one, Computed) for path in one.needs}
+        asked = [one for one in wanted if isinstance(one, Register)]
+        asked += [session.registers[path] for path in sorted(along)]
+        snapshot = yield from read_with(asked, unit_needs)(session)
+        return tuple(_reading(one, snapshot, session.givens) for one in wanted)
 
     return task
+
+
+def _reading(one: Readable, snapshot: Snapshot, givens: Mapping[str, Any]) -> RegisterReading:
+    unit = one.unit if isinstance(one, Computed) else unit_of(one, snapshot.valid, givens)
+    try:
+        plain, text = _value(one, snapshot, givens)
+    except RegscribeError as error:
+        return RegisterReading(one.path, None, "", unit, error)
+    return RegisterReading(one.path, plain, text, unit if is_number(plain) else "", None)
+
+
+def _value(one: Readable, snapshot: Snapshot, givens: Mapping[str, Any]) -> tuple[Plain, str]:
+    """A value, plain and as text; raises the error of one that there is not."""
+    if isinstance(one, Computed):
+        number = computed(one, snapshot.entries, givens)
+        return number, text_of(number)
+    value = snapshot[one.path]
+    return show(one, value), as_text(one, value)
 
 
 def read_with(registers: Iterable[Register[Any]], needs: Callable[[Register[Any]], Iterable[str]]) -> Task[Snapshot]:

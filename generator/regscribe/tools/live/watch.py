@@ -4,10 +4,11 @@ import math
 import time
 from collections.abc import Callable, Iterator, Sequence
 from datetime import UTC, datetime
-from typing import Any, NamedTuple
+from typing import NamedTuple
 
+from regscribe.tools.live.names import Readable
 from regscribe.tools.live.reading import RegisterReading, readings
-from regscribe_runtime import BareDevice, LinkLost, NoAnswer, Register, RegscribeError, WrongAnswer
+from regscribe_runtime import BareDevice, Computed, LinkLost, NoAnswer, RegscribeError, WrongAnswer
 
 IDLE_SHARE = 0.1
 """Share of a round's time on the line for which the line is left to others before the next round."""
@@ -48,14 +49,14 @@ class GaveUp(Exception):  # noqa: N818 - it is the end of watching
 
 def watch(
     device: BareDevice,
-    registers: Sequence[Register[Any]],
+    wanted: Sequence[Readable],
     *,
     every: float,
     count: int = 0,
     give_up: int = 0,
     sleep: Callable[[float], None] = time.sleep,
 ) -> Iterator[Round]:
-    """Read `registers` every so many seconds, or less often if their map says so, `count` times (0: for ever).
+    """Read `wanted` every so many seconds, or less often if their map says so, `count` times (0: for ever).
 
     A round begins at the earliest when the last one is done and the line was idle for a tenth of its time. A device
     that does not answer is asked again in the next round; after `give_up` such rounds in a row (0: never) GaveUp is
@@ -70,11 +71,11 @@ def watch(
         moment, started = datetime.now(UTC), time.monotonic()
         found: tuple[RegisterReading, ...] = ()
         error = None
-        due = [one for one in registers if started - read_at.get(one.path, -math.inf) >= one.reading.pause - every / 2]
+        due = [one for one in wanted if started - read_at.get(one.path, -math.inf) >= _pause(device, one) - every / 2]
         try:
             held |= {one.name: one for one in (device.run(readings(due)) if due else ())}
             read_at |= dict.fromkeys((one.path for one in due), started)
-            found = tuple(held[one.path] for one in registers)
+            found = tuple(held[one.path] for one in wanted)
         except (NoAnswer, LinkLost, WrongAnswer) as problem:
             error = problem
         seconds = time.monotonic() - started
@@ -89,3 +90,9 @@ def watch(
             raise GaveUp(failed, error)
         if number != count:
             sleep(max(started + every - time.monotonic(), seconds * IDLE_SHARE))
+
+
+def _pause(device: BareDevice, one: Readable) -> float:
+    """Seconds after which a reading may tell something new; a computed value changes with each of its registers."""
+    registers = [device.registers[path] for path in one.needs] if isinstance(one, Computed) else [one]
+    return min((each.reading.pause for each in registers), default=0)

@@ -7,7 +7,7 @@ from regscribe_runtime.driver.parts import AsyncPart, Bound, Part
 from regscribe_runtime.operations import tasks
 from regscribe_runtime.values.conditions import ALWAYS, Cases, Condition
 from regscribe_runtime.values.scales import Range
-from regscribe_runtime.values.terms import Term
+from regscribe_runtime.values.terms import Term, registers_in
 
 
 class ComputedValue(Bound["Computed", Part]):
@@ -41,10 +41,15 @@ class Computed:
     """
 
     def __init__(self, term: Term, *, unit: str = "", valid: Cases[Range] = (), when: Condition = ALWAYS) -> None:
-        self.term, self.unit, self.valid, self.when, self.id = term, unit, valid, when, ""
+        self.term, self.unit, self.valid, self.when, self.path = term, unit, valid, when, ""
 
     def __set_name__(self, owner: type, name: str) -> None:
-        self.id = name
+        self.path = name
+
+    @property
+    def needs(self) -> tuple[str, ...]:
+        """The paths of the registers that it follows from, with those of its conditions."""
+        return registers_in(self.term, self.valid, self.when)
 
     @overload
     def __get__(self, instance: None, owner: type) -> Self: ...

@@ -13,24 +13,27 @@ from regscribe_runtime.registers.enums import Choice, SpecialNumber
 from regscribe_runtime.registers.presence import absence
 from regscribe_runtime.values.conditions import Cases, Condition
 from regscribe_runtime.values.scales import Range
-from regscribe_runtime.values.terms import Ref, Term, UnsettledError, parts_of, registers_in, resolve
+from regscribe_runtime.values.terms import Ref, Term, UnsettledError, parts_of, resolve
 
 
 class Computable(Protocol):
     """How a number follows from registers: while `when` holds, and valid within `valid`."""
 
-    id: str
+    path: str
     term: Term
     valid: Cases[Range]
     when: Condition
+
+    @property
+    def needs(self) -> tuple[str, ...]:
+        """The paths of the registers that it follows from."""
 
 
 def compute(wanted: Computable) -> Task[float]:
     """Read the registers of a term in one snapshot and compute it."""
 
     def task(session: Session) -> Operation[float]:
-        paths = registers_in(wanted.term, wanted.valid, wanted.when)
-        found = yield from read_many([session.registers[path] for path in paths])(session)
+        found = yield from read_many([session.registers[path] for path in wanted.needs])(session)
         return computed(wanted, found.entries, session.givens)
 
     return task
@@ -43,19 +46,19 @@ def computed(wanted: Computable, entries: Mapping[str, Any], givens: Mapping[str
     """
     values = {path: value for path, value in entries.items() if not isinstance(value, RegscribeError)}
     errors = {path: value for path, value in entries.items() if isinstance(value, RegscribeError)}
-    gone = absence(wanted.id, wanted.when, values, givens, errors)
+    gone = absence(wanted.path, wanted.when, values, givens, errors)
     if gone:
         raise gone
-    state = _Numbers(wanted.id, entries)
+    state = _Numbers(wanted.path, entries)
     _check_numbers(wanted, values)
     try:
         amount = resolve(wanted.term, state, givens)
         number = float(amount)
     except (UnsettledError, OverflowError) as error:
-        raise NotDecodable(wanted.id, str(error)) from None
-    ends = interval_ends(wanted.id, wanted.valid, state, givens)
+        raise NotDecodable(wanted.path, str(error)) from None
+    ends = interval_ends(wanted.path, wanted.valid, state, givens)
     if ends is not None and (why := outside(ends, amount)):
-        raise OutOfRange(wanted.id, why)
+        raise OutOfRange(wanted.path, why)
     return number
 
 
@@ -76,4 +79,4 @@ def _check_numbers(wanted: Computable, values: Mapping[str, Any]) -> None:
     for path in (part.register for part in parts_of((wanted.term, wanted.valid)) if isinstance(part, Ref)):
         value = values.get(path)
         if isinstance(value, Choice | SpecialNumber):
-            raise NotDecodable(wanted.id, f"it is computed from {path}, which is {value!s}")
+            raise NotDecodable(wanted.path, f"it is computed from {path}, which is {value!s}")
