@@ -1,7 +1,7 @@
 """Errors of drivers, one tree.
 
 RegscribeError
-├── LinkLost            the link is closed, or broke
+├── LinkLost            the link is closed, or broke (NotOpen: it never was open, nothing was sent)
 ├── NoAnswer            nothing came within the response timeout
 ├── ExceptionAnswer     the device refused, with a code and its own meaning of it
 ├── WrongAnswer         an answer that does not fit the request
@@ -45,6 +45,10 @@ class RegscribeError(Exception):
 
 class LinkLost(RegscribeError, ConnectionError):  # noqa: N818 (the field's word; the tree says it is an error)
     """The link is closed or broke; whether a request under way was carried out is unknown."""
+
+
+class NotOpen(LinkLost):
+    """The link was not open, so nothing was sent."""
 
 
 class NoAnswer(RegscribeError, TimeoutError):  # noqa: N818 (as above)
@@ -267,7 +271,7 @@ def is_lost(error: Exception) -> bool:
     """Whether a write may have been carried out although it ended in this error."""
     if isinstance(error, ExceptionAnswer):
         return error.code in UNDECIDED and not error.name
-    return isinstance(error, LOST) and not isinstance(error, PartialWrite)
+    return isinstance(error, LOST) and not isinstance(error, PartialWrite | NotOpen)
 
 
 _BOTH: dict[tuple[type[WriteFailed], type[RegscribeError]], type[WriteFailed]] = {}

@@ -41,6 +41,7 @@ from regscribe_runtime.errors import NoAnswer as NoAnswer
 from regscribe_runtime.errors import NotApplied as NotApplied
 from regscribe_runtime.errors import NotConfigured as NotConfigured
 from regscribe_runtime.errors import NotDecodable as NotDecodable
+from regscribe_runtime.errors import NotOpen as NotOpen
 from regscribe_runtime.errors import NotPresent as NotPresent
 from regscribe_runtime.errors import NotWritten as NotWritten
 from regscribe_runtime.errors import OutOfRange as OutOfRange

@@ -7,7 +7,7 @@ from typing import Any
 import pytest
 
 from regscribe.simulate import simulate
-from regscribe_runtime import ExceptionAnswer, LinkLost, PartialWrite, Saturated, SensorFault, ValueRefused
+from regscribe_runtime import ExceptionAnswer, LinkLost, NotOpen, PartialWrite, Saturated, SensorFault, ValueRefused
 
 COOLED = {"cooled_codes": {1}}
 
@@ -77,6 +77,13 @@ def test_a_link_opened_anew_forgets_what_was_remembered(controller: Any, running
     controller.open()
 
     assert controller.setpoint.read() == 77
+
+
+@pytest.mark.parametrize("attempt", ["read", "write"])
+def test_a_driver_that_is_not_open_says_so_and_leaves_no_write_in_doubt(controller: Any, attempt: str) -> None:
+    controller.close()
+    with pytest.raises(NotOpen, match=r"is not open: use the driver in a `with` statement"):
+        controller.setpoint.read() if attempt == "read" else controller.setpoint.write(80)
 
 
 def test_the_x10_view_at_its_end_is_no_value(controller: Any, running: Any) -> None:

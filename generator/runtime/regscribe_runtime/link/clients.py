@@ -16,7 +16,7 @@ from pymodbus.exceptions import ConnectionException, ModbusException, ModbusIOEx
 from pymodbus.framer import FramerAscii, FramerRTU
 from pymodbus.pdu import ModbusPDU
 
-from regscribe_runtime.errors import LinkLost, NoAnswer, WrongAnswer
+from regscribe_runtime.errors import LinkLost, NoAnswer, NotOpen, WrongAnswer
 from regscribe_runtime.link.links import ClientSettings, Retry
 from regscribe_runtime.link.locks import AsyncTurns, Turns
 from regscribe_runtime.link.pending import PendingRequest, StaleReplies
@@ -95,7 +95,7 @@ class _Base:
     def _check(self) -> None:
         if not self._client.connected:
             message = f"{self._client} is not connected: connect it before a driver uses it"
-            raise LinkLost(message)
+            raise NotOpen(message)
 
     def _begin(self, unit: int, request: Request) -> PendingRequest:
         self._used = self._connection()

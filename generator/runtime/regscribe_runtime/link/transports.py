@@ -7,7 +7,7 @@ answers (opening a port costs time and resets some devices).
 
 import time
 
-from regscribe_runtime.errors import LinkLost, RegscribeError
+from regscribe_runtime.errors import LinkLost, NotOpen, RegscribeError
 from regscribe_runtime.link.exchange import Conversation
 from regscribe_runtime.link.links import LinkSettings, Retry, Tracer
 from regscribe_runtime.link.locks import AsyncTurns, Turns
@@ -106,7 +106,7 @@ class _Base:
         """
         if not self.opened:
             message = f"{self.name} is not open: use the driver in a `with` statement, or call open()"
-            raise LinkLost(message)
+            raise NotOpen(message)
         if self._wire is None:
             return None
         if self._tuned != self.line:
