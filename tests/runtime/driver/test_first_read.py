@@ -77,7 +77,7 @@ def test_more_than_a_few_are_read_in_the_cheapest_requests(talk: Callable[[str, 
     assert talking.sent == [(3, 100, 11), (3, 0, 1)]
 
 
-MOST_CALLS = 420
+MOST_CALLS = 395
 """Of functions of the runtime, over a link without a line: what the first read of a conditional value may take."""
 
 

@@ -328,6 +328,8 @@ Faults = tuple[tuple[float | None, float | None, str, str], ...]
 
 def _faults(register: Coded, view: View, state: State, givens: Givens) -> Faults:
     found: list[tuple[float | None, float | None, str, str]] = []
+    if not register.sentinels:
+        return ()
     for one in in_case(register.sentinels, state, givens):
         ends = one.ends and [_on_wire(view, Fraction(end)) for end in one.ends]
         if ends is None:

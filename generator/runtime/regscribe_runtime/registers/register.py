@@ -212,21 +212,21 @@ class Register(Generic[T]):
 
         ValueError for an unknown name, and for a view that cannot be read.
         """
-        return self._view_by(name, [view.name for view in self.views if view.readable], "read")
+        view = self.view(name)
+        return view if view.readable else self._other_view(name, [one for one in self.views if one.readable], "read")
 
     def write_view(self, name: str | None = None) -> View:
         """As `read_view`, of the view to write."""
-        return self._view_by(name, [view.name for view in self.views if view.writable], "written")
-
-    def _view_by(self, name: str | None, able: Sequence[str], verb: str) -> View:
         view = self.view(name)
-        if view.name in able:
-            return view
+        return view if view.writable else self._other_view(name, [one for one in self.views if one.writable], "written")
+
+    def _other_view(self, name: str | None, able: Sequence[View], verb: str) -> View:
         if name is None and able:
-            return self.view(able[0])
+            return able[0]
+        view = self.view(name)
         message = (
             f"the {view.name} view of {self.path} cannot be {verb} (it is by functions {list(view.functions)}); "
-            f"{', '.join(able) or 'none'} can"
+            f"{', '.join(one.name for one in able) or 'none'} can"
         )
         raise ValueError(message)
 

@@ -207,4 +207,6 @@ def choose(cases: Cases[T], state: State, givens: Givens) -> T | None:
 
 def registers_of(cases: Cases[Any]) -> tuple[str, ...]:
     """The registers in the conditions of the cases, each once."""
+    if not cases:
+        return ()
     return tuple(dict.fromkeys([name for case in cases if case.when.tests for name in case.when.registers]))

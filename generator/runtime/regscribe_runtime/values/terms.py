@@ -137,6 +137,8 @@ def parts_of(term: Any) -> Iterator[Any]:
 
 def registers_in(*terms: Any) -> tuple[str, ...]:
     """The registers that terms need, those of their conditions too, each once."""
+    if not terms:
+        return ()
     found = (part for term in terms for part in parts_of(term))
     return tuple(dict.fromkeys(path for part in found if (path := getattr(part, "register", ""))))
 

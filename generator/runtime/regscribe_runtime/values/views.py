@@ -158,6 +158,8 @@ def read_view(register: Placed) -> View:
 def scale_needs(register: Scaled) -> tuple[str, ...]:
     """Registers that select or contain the scale, or that of special values."""
     cases = (*register.scale, *register.special_scale)
+    if not cases:
+        return ()
     found = [*registers_of(cases), *(case.then.decimals.register for case in cases if case.then.decimals)]
     numbers = [number for case in cases for number in (case.then.multiply, case.then.add)]
     terms = [number for number in numbers if isinstance(number, tuple)]  # nearly all are plain numbers
@@ -166,7 +168,7 @@ def scale_needs(register: Scaled) -> tuple[str, ...]:
 
 def needs(register: Scaled, view: View) -> tuple[str, ...]:
     """Registers that must be known to decode `view`: first those that tell whether the register exists."""
-    faults = [name for one in register.sentinels for name in one.when.registers]
+    faults = [name for one in register.sentinels for name in one.when.registers] if register.sentinels else ()
     others = (*scale_needs(register), *faults, *_range_needs(register.valid), *registers_of(register.partial))
     return tuple(dict.fromkeys((*register.when.registers, *view.needs(), *others)))
 
