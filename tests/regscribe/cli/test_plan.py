@@ -162,3 +162,16 @@ def test_what_does_not_exist_in_a_state_is_not_planned(folder: Path, cli: Cli) -
     assert json.loads(held.out)["absent"] == ["limit"]
     wrong = cli("plan", "oven.yaml", "--model", "M1", "--all", "--with", "nothing=1")
     assert "write NAME=VALUE" in wrong.err
+
+
+def test_fewer_elements_of_a_packed_array_are_refused(folder: Path, cli: Cli) -> None:
+    inside = "{at: 2, name: Points}, {id: curve, name: Curve, stride: 1, "
+    inside += (
+        "repeat: {from: 1, to: points, most: 2, packed: true}, registers: [{at: 3, name: Volts}]}, {at: 5, name: Tail}"
+    )
+    blocks = "chains: {chain: {at: 0}}\nblocks: {block: {chain: chain, id: 705}}\ngroups:\n"
+    group = f"  - {{id: own, name: Own, block: block, each: {{access: r}}, registers: [{inside}]}}\n"
+    (folder / "oven.yaml").write_text(MAP.replace("groups:\n", blocks + group), encoding="utf-8")
+    plans = [cli("plan", "oven.yaml", "--model", "M1", "--group", "own", f"--with=points={count}") for count in (2, 1)]
+    assert plans[0].code == 0
+    assert "1 of the 2 elements of `curve`, which is packed" in plans[1].err

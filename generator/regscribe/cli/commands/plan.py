@@ -1,7 +1,7 @@
 """`regscribe plan`: which requests read registers at the least cost, and why."""
 
 import sys
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from fractions import Fraction
 
 import click
@@ -14,6 +14,7 @@ from regscribe.cli.shared.planned_model import PlannedModel
 from regscribe.cli.shared.target_options import base_option
 from regscribe.emit.words import span_words
 from regscribe.model import RegisterMap, parse
+from regscribe.model.located import arrays_in
 from regscribe.tools.live.errors import unknown
 from regscribe_runtime.operations.prepared_read import laid_out
 from regscribe_runtime.planning import plan
@@ -71,12 +72,14 @@ def command(  # noqa: PLR0913 - one parameter an option
     input type, word order) is read behind them. Times are the expected ones: the mean of the
     manual's shortest and longest. Where a device tells the base of blocks, an assumed one counts unless --base says
     it; a driver finds them by requests of its own, once per connection. Registers that exist under a condition are
-    left out where it does not hold by --with, or else by the defaults of the map.
+    left out where it does not hold by --with, or else by the defaults of the map. A packed array has all its elements.
     """
     (register_map,) = compiled_maps([find_map(map_name)], nothing="nothing is planned")
     subject = _subject(register_map, model, bases)
     wanted = _selected(subject, ids, groups, everything=everything)
-    absent = subject.absent(register_map, dict(_held(subject, text) for text in state))
+    held = dict(_held(subject, text) for text in state)
+    _refuse_fewer_packed(subject, held)
+    absent = subject.absent(register_map, held)
     terms = subject.terms(_cost(subject, baud, form, framing, tcp=tcp), absent)
     gone = [path for path in wanted if path in absent]
     wanted = [path for path in wanted if path not in absent]
@@ -107,6 +110,15 @@ def _held(subject: PlannedModel, text: str) -> tuple[str, Fraction]:
         return path, Fraction(members[value.lower()])
     with raised_as(click.UsageError, ValueError):
         return path, parse(value)
+
+
+def _refuse_fewer_packed(subject: PlannedModel, held: Mapping[str, Fraction]) -> None:
+    """A plan has what stands behind a packed array where it stands behind all elements."""
+    for array in arrays_in(subject.model.members):
+        number = held.get(array.counted, array.count)
+        if array.packed and number < array.count:
+            what = f"{number} of the {array.count} elements of `{array.id}`, which is packed"
+            refuse(f"--with {array.counted}={number}: {what}; a plan is made for a device that has them all")
 
 
 def _subject(register_map: RegisterMap, wanted: str | None, bases: Sequence[str]) -> PlannedModel:
