@@ -14,6 +14,8 @@ FLOATS = ("float32", "float64", "float16")
 WIDTHS = {"uint8": 8, "int8": 8, "uint24": 24, "int24": 24, "uint48": 48, "int48": 48, "uint128": 128, "int128": 128}
 WIDTHS |= {f"{sign}int{bits}": bits for bits in (16, 32, 64) for sign in ("u", "")}
 """Types whose bits can have meanings of their own."""
+WORDS_OF_BITS = ("uint32", "uint48", "uint64", "uint128")
+"""Those that flags and fields may say by their length."""
 FIXED = ("q15", "q8.8", "uq8.8", "q16.16")
 LIMITS = {name: (0, 2**bits - 1) for name, bits in WIDTHS.items() if name.startswith("u")}
 LIMITS |= {name: (-(2 ** (bits - 1)), 2 ** (bits - 1) - 1) for name, bits in WIDTHS.items() if name.startswith("i")}
@@ -312,6 +314,8 @@ def _words(draw: Draw, sel: Decider, name: str) -> tuple[Json, Json]:
         scaled = not {"enum", "flags", "fields", "version", "kind"} & keys.keys()
         return keys | {"views": name}, tables | {"views": {name: _views(draw, kind, access, scaled=scaled)}}
     keys = _orders(draw, keys | {"type": kind})
+    if kind in WORDS_OF_BITS and {"flags", "fields"} & keys.keys() and _maybe(draw, 2):
+        keys["length"] = WIDTHS[keys.pop("type")] // 16
     if access == "rw" and _maybe(draw, 6):
         keys["functions"] = _of(draw, [3, 6, 16], [3, 16], [3])
     if (access == "rw" or space == "input") and _maybe(draw, 4):

@@ -9,7 +9,7 @@ from regscribe.lower.rules import BAD_BITS, IDLE_KEY, UNKNOWN_ENUM
 from regscribe.lower.scope import Scope
 from regscribe.lower.texts import whole_ends
 from regscribe.lower.tree import TreeNode
-from regscribe.model import ALWAYS, BitField, Condition, Enum, Member
+from regscribe.model import ALWAYS, BitField, Condition, Enum, Member, Space
 
 MakeCondition = Callable[[Value | None, Scope], Condition]
 """What makes a condition of a `when`; those who only ask which codes and bits there are need none."""
@@ -146,7 +146,7 @@ def _field(node: Value, scope: Scope, entry: TreeNode) -> BitField:
 
 
 def _bit(node: Value, bit: int, *, at_key: bool = False) -> int:
-    if 0 <= bit <= 127:  # noqa: PLR2004 - the widest wire type has bits 0 to 127
+    if 0 <= bit < 16 * Space.HOLDING.most:
         return bit
     node.report(BAD_BITS, f"there is no bit {bit}", remedy="bits count from 0, the least significant", at_key=at_key)
     return 0

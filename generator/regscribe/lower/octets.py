@@ -36,6 +36,16 @@ def words_of(wire: WireType, keys: Keyed, space: Space) -> int:
     return wire.words
 
 
+def bits_of(length: Value) -> WireType:
+    """The type of flags or fields in as many words as `length` says; RS0336 for one that no request carries."""
+    words, most = length.whole(), Space.HOLDING.most
+    if 1 < words <= most:
+        return WireType.of_words(words)
+    message = f"flags and fields take 2 to {most} words by `length`, not {words}"
+    length.report(IDLE_LENGTH, message, remedy="remove `length` where they stand in one word, or correct it")
+    return WireType.UINT16
+
+
 def _laid_out(wire: WireType, layout: Value | None, where: Value | None) -> int:
     if layout is None:
         if where:

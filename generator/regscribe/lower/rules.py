@@ -77,7 +77,7 @@ RULES: tuple[Rule, ...] = (
     Rule(UNKNOWN_ARGUMENT, "Unknown argument of a command", _NAMES),
     Rule(UNKNOWN_MODEL, "Unknown model", "A mistyped model would silently lose or keep a register."),
     Rule(REVERSED, "Reversed range", "A range whose lower end is above its upper end allows nothing."),
-    Rule(BAD_BITS, "No such bit", "Bits count from 0, the least significant, to 127 in the widest type."),
+    Rule(BAD_BITS, "No such bit", "Bits count from 0, the least significant, to 1999 where `length` is 125."),
     Rule(
         NO_IDENTIFIER, "No identifier", "Names become identifiers of the driver; some names need an `id` beside them."
     ),

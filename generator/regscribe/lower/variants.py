@@ -49,7 +49,8 @@ class Keys(dict[str, Value], Keyed):
         """Lay keys over these.
 
         A key given as null removes what lies below; so does a key that says the same thing in another way (`decimals`
-        over `scale`), and codes, bits and texts take away the number that the group's defaults would make of the word.
+        over `scale`, bits with a `length` over a `type`), and codes, bits and texts take away the number that the
+        group's defaults would make of the word.
         """
         given = {key: node for key, node in own.items() if node.value is not None}
         for keys, rivals in _RIVALS:
@@ -58,6 +59,8 @@ class Keys(dict[str, Value], Keyed):
         if given.keys() & _CODES or any(key in given and given[key].value in _NO_NUMBERS[key] for key in _NO_NUMBERS):
             for key in self.keys() & (_NUMERIC - own.keys()):
                 del self[key]
+        if "length" in given and given.keys() & {"flags", "fields"}:
+            self._replace({"type"} - own.keys())
         self._replace(own.keys())
         self.update(given)
 

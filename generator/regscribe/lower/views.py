@@ -2,7 +2,7 @@
 
 from regscribe.lower.conditions import condition_of
 from regscribe.lower.node import Keyed, Value
-from regscribe.lower.octets import words_of
+from regscribe.lower.octets import bits_of, words_of
 from regscribe.lower.rules import IDLE_KEY, IDLE_LENGTH, NO_PART, TYPE_BESIDE_VIEWS, UNKNOWN_VIEWS, WRONG_SORT
 from regscribe.lower.scope import Scope
 from regscribe.lower.terms import ONE, term_of
@@ -57,12 +57,19 @@ def views_of(entry: TreeNode, scope: Scope) -> tuple[View, ...]:
     if at and at.is_list:
         views = tuple(_spread_out(entry, view, at) for view in views)
     views = tuple(_in_part(entry, view) if view.space.part_bits else _on_page(entry, view) for view in views)
+    told = "views" not in settings and _length_of_bits(settings, space, words)
     types = dict.fromkeys(view.type for view in views)
-    if "length" in settings and not any(wire.is_octets and KINDS[wire] not in MOMENTS for wire in types):
+    if "length" in settings and not (told or any(wire.is_octets and KINDS[wire] not in MOMENTS for wire in types)):
         message = f"`{entry.id}` has a `length`, but its type is {', '.join(types)}"
-        remedy = "remove `length`, or write `type: string`"
+        remedy = "remove `length`, or write `type: string`; of flags and fields, `length` stands without a `type`"
         settings["length"].report(IDLE_LENGTH, message, remedy=remedy, at_key=True)
     return views
+
+
+def _length_of_bits(keys: Keyed, space: Space, words: Keyed) -> Value | None:
+    """The `length` that says how many words of flags or fields a view has; None where a type says it."""
+    bits = words.child("flags") or words.child("fields")
+    return None if bits is None or keys.child("type") or space in _DEFAULT_TYPES else words.child("length")
 
 
 def _single(keys: Keys, space: Space, words: Keyed, scope: Scope) -> tuple[View, ...]:
@@ -195,7 +202,8 @@ def _report_idle(view: View, node: Value) -> None:
 
 
 def _view(name: str, keys: Keyed, space: Space, words: Keyed, scope: Scope) -> View:
-    wire = keys.choice_of("type", _DEFAULT_TYPES.get(space, WireType.UINT16))
+    bits = _length_of_bits(keys, space, words)
+    wire = bits_of(bits) if bits else keys.choice_of("type", _DEFAULT_TYPES.get(space, WireType.UINT16))
     factor, region = term_of(keys.child("factor"), scope, ONE), keys.child("region")
     byte = keys.child("byte")
     return View(

@@ -42,7 +42,7 @@ def expression(value: object, known: Known = lambda _: None) -> Expression:
         case None | bool():
             return str(value)
         case Enum():
-            return f"{type(value).__name__}.{value.name}"
+            return member(value)
         case str():
             return call("Open", literal(value)) if isinstance(value, Open) else literal(value)
         case int() | Fraction():

@@ -25,8 +25,9 @@ def exact(number: Number) -> str:
 
 
 def member(value: Enum) -> str:
-    """A member of an enum of the runtime."""
-    return f"{type(value).__name__}.{value.name}"
+    """A member of an enum of the runtime; a row that is made when it is asked for, by its value."""
+    name = type(value).__name__
+    return f"{name}.{value.name}" if value.name in type(value).__members__ else f"{name}({literal(value.value)})"
 
 
 def plain(number: Fraction) -> str:

@@ -117,7 +117,7 @@ def _word(register: Register, parts: list[object]) -> Fraction:
         field = fields.get(name.strip().lower())
         if field is not None:
             word = with_field(word, field, _part(register, field, value) if equals else Fraction(1))
-        elif str(part).isdecimal() and len(str(part)) <= len(str(1 << 128)):
+        elif str(part).isdecimal() and len(str(part)) <= len(str(1 << register.base.type.bits)):
             word += int(str(part))
         else:
             message = f"`{register.path}` has no flag `{part}`{meant(str(part), fields)}"

@@ -1,6 +1,7 @@
 """Numbers on the wire: address spaces, types, orders and roundings."""
 
 import math
+import re
 import struct
 from collections.abc import Sequence
 from enum import StrEnum
@@ -149,6 +150,7 @@ _BYTE = "one byte of the word; the other is not read, and is written as 0"
 _BCD = "a decimal digit in each four bits"
 _MODULO = "a number from 0 to 9999 in each word, four decimal digits"
 _SIGN = "the highest bit is the sign, the others the size"
+_WIDE = re.compile(r"uint([89][0-9]|[1-9][0-9]{2,3})")
 _SHORTEST = "read as the shortest decimal of its bits"
 
 
@@ -228,23 +230,45 @@ class WireType(StrEnum):
         """The type of this row."""
         found = str.__new__(cls, name)
         found._value_ = name
-        found.note, found.fraction = note, fraction
-        found.is_octets = isinstance(how, int)
-        found.code = how if isinstance(how, str) else "H" if isinstance(how, int) else ""
-        found.spelling = None if isinstance(how, str | int) else how
-        found.is_float = found.code in _FLOATS
-        found.is_integer = not found.is_float and not found.is_octets
-        if found.spelling:
-            found.words, found.bits, found.minimum, found.maximum, *_ = found.spelling
-            found.packer = struct.Struct(f">{2 * found.words}s")
-            return found
-        found.packer = struct.Struct(">" + found.code)
-        found.words = how if isinstance(how, int) else found.packer.size // 2
-        found.bits = width or 16 * found.words
-        sign = found.code in _SIGNED
-        found.minimum = -(1 << (found.bits - 1)) if sign else 0
-        found.maximum = (1 << (found.bits - sign)) - 1
+        found.fill(how, note, fraction, width)
         return found
+
+    def fill(self, how: str | Spelling | int, note: str = "", fraction: int = 0, width: int = 0) -> None:
+        """Give the type what its row says."""
+        self.note, self.fraction = note, fraction
+        self.is_octets = isinstance(how, int)
+        self.code = how if isinstance(how, str) else "H" if isinstance(how, int) else ""
+        self.spelling = None if isinstance(how, str | int) else how
+        self.is_float = self.code in _FLOATS
+        self.is_integer = not self.is_float and not self.is_octets
+        if self.spelling:
+            self.words, self.bits, self.minimum, self.maximum, *_ = self.spelling
+            self.packer = struct.Struct(f">{2 * self.words}s")
+            return
+        self.packer = struct.Struct(">" + self.code)
+        self.words = how if isinstance(how, int) else self.packer.size // 2
+        self.bits = width or 16 * self.words
+        sign = self.code in _SIGNED
+        self.minimum = -(1 << (self.bits - 1)) if sign else 0
+        self.maximum = (1 << (self.bits - sign)) - 1
+
+    @classmethod
+    def _missing_(cls, value: object) -> "WireType | None":
+        """The row of `uint80` and of more words, made when it is first asked for: of bits, few of many lengths."""
+        name = str(value)
+        width = int(name.removeprefix("uint")) if _WIDE.fullmatch(name) else 1
+        if width % 16:
+            return None
+        made = str.__new__(cls, name)
+        made._name_, made._value_ = name.upper(), name
+        made.fill(narrow(width, signed=False))
+        cls._value2member_map_[name] = made
+        return made
+
+    @classmethod
+    def of_words(cls, words: int) -> "WireType":
+        """The type of so many words of bits."""
+        return cls(f"uint{16 * words}")
 
     @property
     def ends(self) -> tuple[Fraction, Fraction]:
