@@ -451,5 +451,6 @@ def bench_of(built: Built) -> DriverUnderTest:
         tuple(found["examples"]),
         found["protocol"],
         tuple(found["commands"]),
+        tuple(found.get("computed", ())),
     )
     return DriverUnderTest(built.module.CaseA, vectors)

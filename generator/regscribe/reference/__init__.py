@@ -18,6 +18,7 @@ from regscribe.reference.codec import (
     version_number,
     version_text,
 )
+from regscribe.reference.computed import Held, compute
 from regscribe.reference.givens import surroundings_of
 from regscribe.reference.ieee import ieee_bits, ieee_number, shortest
 from regscribe.reference.limits import divided_limits, is_valid, limits, within
@@ -49,6 +50,7 @@ __all__ = [
     "AS_IS",
     "MOST_DECIMALS",
     "Arrangement",
+    "Held",
     "Known",
     "Meaning",
     "Reading",
@@ -60,6 +62,7 @@ __all__ = [
     "amount",
     "bytes_in_order",
     "choose",
+    "compute",
     "decimal_factor",
     "decode",
     "divided_limits",

@@ -38,6 +38,7 @@ class Meaning(StrEnum):
     FAULT = "fault"
     OUT_OF_RANGE = "out_of_range"
     NOT_DECODABLE = "not_decodable"
+    NOT_PRESENT = "not_present"
 
 
 @dataclass(frozen=True, slots=True)
@@ -52,3 +53,4 @@ class Reading:
 NOT_DECODABLE = Reading(Meaning.NOT_DECODABLE)
 SATURATED = Reading(Meaning.SATURATED)
 OUT_OF_RANGE = Reading(Meaning.OUT_OF_RANGE)
+NOT_PRESENT = Reading(Meaning.NOT_PRESENT)

@@ -5,6 +5,7 @@ from functools import cached_property
 from typing import Any
 
 from regscribe.testing.compare import decoded, differs, encoded, expect_none, refused, same, spelled
+from regscribe.testing.computed import computed, computed_of
 from regscribe.testing.vectors import Json, Trial, Vectors, known, number
 from regscribe_runtime.registers.register import Register
 from regscribe_runtime.values.conditions import ALWAYS
@@ -154,6 +155,13 @@ class DriverUnderTest:
                 differences += differs(f"{place['path']} with {state}", "exists", exists, vector["exists"])
         expect_none(differences)
 
+    def check_computed(self) -> None:
+        """Assert that the driver has the computed values of the model, and that each is what follows from words."""
+        found, several = computed_of(self.driver), [one for one in self.vectors.computed if self.model in one["models"]]
+        differences = [*differs(self.model, "computed values", sorted(found), sorted(one["id"] for one in several))]
+        pairs = ((found[one["id"]], case) for one in several if one["id"] in found for case in one["cases"])
+        expect_none([*differences, *(text for pair in pairs for text in computed(self.driver, *pair))])
+
     def check_examples(self) -> None:
         """Assert that the driver reproduces the manual's worked examples."""
         expect_none(text for example in self.vectors.examples_of(self.model) for text in self._example(example))
@@ -192,6 +200,7 @@ CHECKS = (
     DriverUnderTest.check_encoding,
     DriverUnderTest.check_refusals,
     DriverUnderTest.check_conditions_of_writing,
+    DriverUnderTest.check_computed,
     DriverUnderTest.check_examples,
 )
 """The checks of generated tests that draw no values."""

@@ -20,6 +20,7 @@ class Vectors:
     examples: tuple[Json, ...] = field(default=(), repr=False)
     protocol: Json = field(default_factory=dict, repr=False)
     commands: tuple[Json, ...] = field(default=(), repr=False)
+    computed: tuple[Json, ...] = field(default=(), repr=False)
 
     def registers(self, model: str) -> Iterator[tuple[Json, Json]]:
         """Yield the place (path, addresses) and the vector set of each register of a model."""
@@ -41,6 +42,7 @@ def load(path: Path) -> Vectors:
         examples=tuple(data["examples"]),
         protocol=data["protocol"],
         commands=tuple(data["commands"]),
+        computed=tuple(data.get("computed", ())),
     )
 
 

@@ -4,6 +4,7 @@ import json
 from typing import Any
 
 from regscribe.emit.header import FORMAT, header
+from regscribe.emit.vectors.computed import computed_values
 from regscribe.emit.vectors.sent_values import transmissions
 from regscribe.emit.vectors.test_module import module_text
 from regscribe.emit.vectors.vector_sets import once_for_models, vector_sets
@@ -57,7 +58,14 @@ def document(register_map: RegisterMap) -> Json:
         "sets": vector_sets(register_map),
         "transmissions": transmissions(register_map),
         "examples": worked_examples(register_map),
+        **_computed(register_map),
     }
+
+
+def _computed(register_map: RegisterMap) -> Json:
+    """Return the vectors of what is computed; nothing where nothing is."""
+    found = computed_values(register_map)
+    return {"computed": found} if found else {}
 
 
 def _protocol(protocol: Protocol) -> Json:

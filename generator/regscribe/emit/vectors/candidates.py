@@ -79,13 +79,14 @@ def wire_bits(
     numbers = [*_stored_numbers(register, full=full), *(_scaled_numbers(register, scale, known) if scale else ())]
     numbers += [*scale.stored_limits()] if scale and full else []
     for stored, note in numbers:
-        pattern = _bits(view, stored * view.factor)
+        pattern = bits_of(view, stored * view.factor)
         if pattern is not None:
             found.setdefault(pattern, note)
     return found
 
 
-def _bits(view: View, number: Fraction) -> int | None:
+def bits_of(view: View, number: Fraction) -> int | None:
+    """The bits of a wire number (most significant first); None for one that the type has not."""
     if view.type.is_float:
         return ieee_bits(number, view.type)
     highest = max(view.type.maximum, (1 << view.type.bits) - 1)  # a pattern of bits has no sign

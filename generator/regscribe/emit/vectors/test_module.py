@@ -45,6 +45,9 @@ CHECKS = {
 }
 """Names of tests by the method of `DriverUnderTest` that each calls."""
 
+COMPUTED = {"check_computed": "computed_values_follow_from_the_words_of_registers"}
+"""The same, of maps with computed values."""
+
 PROPERTIES = {
     "total_decoding": ("", "any_words_give_a_value_or_a_documented_error"),
     "covering_reads": ("readable", "a_read_covers_each_register_once_and_crosses_no_hole_and_no_limit"),
@@ -75,7 +78,8 @@ def module_text(register_map: RegisterMap) -> str:
         "written": any(register.access.writable for register in registers),
         "mirrored": any(register.access.writable and len(register.views) > 1 for register in registers),
     }
-    checks = [_test(name, ["@every_model"], [], f"driver.{check}()") for check, name in CHECKS.items()]
+    named = CHECKS | (COMPUTED if any(model.computed for model in register_map.models) else {})
+    checks = [_test(name, ["@every_model"], [], f"driver.{check}()") for check, name in named.items()]
     properties = [_property(name, needed, function) for function, (needed, name) in PROPERTIES.items() if had[needed]]
     return "".join([head, *checks, *properties])
 
