@@ -16,7 +16,7 @@ from pymodbus.exceptions import ConnectionException, ModbusException, ModbusIOEx
 from pymodbus.framer import FramerAscii, FramerRTU
 from pymodbus.pdu import ModbusPDU
 
-from regscribe_runtime.errors import LinkLost, NoAnswer, NotOpen, WrongAnswer
+from regscribe_runtime.errors import LinkLost, NoAnswer, NotOpen, ValueRefused, WrongAnswer
 from regscribe_runtime.link.links import ClientSettings, Retry
 from regscribe_runtime.link.locks import AsyncTurns, Turns
 from regscribe_runtime.link.pending import PendingRequest, StaleReplies
@@ -100,8 +100,9 @@ class _Base:
     def _begin(self, unit: int, request: Request) -> PendingRequest:
         self._used = self._connection()
         if request.function == WRITE_REGISTER and request.space is Space.ENRON:
-            message = "pymodbus cannot write a register of 32 bits by function 06: use a link of regscribe's own"
-            raise ValueError(message)
+            where = f"{request.space} {request.space.spelled(request.address)}"
+            reason = "pymodbus takes no answer of function 06 with four bytes; make the driver by `tcp` or `rtu`"
+            raise ValueRefused(where, reason)
         shifted = request.shifted(first_address(self.addressing))
         return PendingRequest(unit, request, shifted, pdu.encode_request(shifted), self.timeout)
 
