@@ -7,7 +7,7 @@ from typing import Any
 from regscribe.evidence.cell_compare import access, number, objects
 from regscribe.files import OneLine
 from regscribe.model import Space, WireType, exact, show
-from regscribe_runtime.values.kinds import MOMENTS
+from regscribe_runtime.values.kinds import MOMENTS, Kind
 from regscribe_runtime.values.octets import KINDS
 
 Cells = Mapping[str, str]
@@ -32,12 +32,20 @@ def _access(cells: Cells) -> dict[str, Any] | None:
 def _type(cells: Cells) -> dict[str, Any] | None:
     wire = cells["type"].lower()
     if wire not in list(WireType):
-        return None
+        return _length_of_bits(wire) if cells.get("kind", "") == Kind.FLAGS else None
     kind = KINDS.get(WireType(wire))
     if kind in MOMENTS:
         return {"type": wire} if "layout" in (objects(cells.get("more", "")) or {}) else None
     length = {"length": int(cells["words"])} if kind and cells.get("words", "").isdecimal() else {}
     return {} if wire == WireType.UINT16 else {"type": wire, **length}
+
+
+def _length_of_bits(wire: str) -> dict[str, Any] | None:
+    """The words of flags in a number too wide for a type of its own."""
+    try:
+        return {"length": WireType(wire).words}
+    except ValueError:
+        return None
 
 
 def _unit(cells: Cells) -> dict[str, Any] | None:
