@@ -14,6 +14,7 @@ from regscribe.model import (
     Identity,
     Is,
     Kind,
+    Model,
     OrderCases,
     Register,
     RegisterMap,
@@ -119,25 +120,27 @@ def never_holds(register_map: RegisterMap, scopes: Scopes) -> Iterator[Finding]:
                 help_text = f"compare the codes with what {tested or 'the givens'} can be, and with one another"
                 yield Finding(cases.subject, cases.span, message, help_text)
     yield from _identities(register_map, scopes)
-    yield from _commands(scopes)
-    yield from _computed(scopes)
+    yield from _others(scopes)
 
 
-def _computed(scopes: Scopes) -> Iterator[Finding]:
+def _others(scopes: Scopes) -> Iterator[Finding]:
     for scope in scopes:
-        for one in scope.model.computed:
-            if not one.when.always and not verdict((one.when,), scope).possible:
-                message = f"computed value `{one.id}` has a condition that can never hold"
-                yield Finding(one.id, one.span, message, "compare the codes with what the registers can be")
+        for what, thing, span, when in conditional(scope.model):
+            if not verdict((when,), scope).possible:
+                message = f"{what} has a condition that can never hold"
+                yield Finding(thing, span, message, "compare the codes with what the registers can be")
 
 
-def _commands(scopes: Scopes) -> Iterator[Finding]:
-    for scope in scopes:
-        for command in scope.model.commands:
-            for what, when in (("it", command.when), *(("a step of it", step.when) for step in command.steps)):
-                if not when.always and not verdict((when,), scope).possible:
-                    message = f"command `{command.id}`: {what} has a condition that can never hold"
-                    yield Finding(command.id, command.span, message, "compare the codes with what the registers can be")
+def conditional(model: Model) -> Iterator[tuple[str, str, Span, Condition]]:
+    """What has a condition and is no register: in words, its id, where it stands, and the condition."""
+    for one in model.computed:
+        yield f"computed value `{one.id}`", one.id, one.span, one.when
+    for command in model.commands:
+        own = f"command `{command.id}`"
+        yield f"{own}: it", command.id, command.span, command.when
+        yield from ((f"{own}: a step of it", command.id, command.span, step.when) for step in command.steps)
+    for program, notes in zip(model.programs, model.program_notes, strict=True):
+        yield from ((f"program `{program.id}`", program.id, notes.span, when) for when in program.conditions)
 
 
 def _identities(register_map: RegisterMap, scopes: Scopes) -> Iterator[Finding]:
@@ -226,11 +229,9 @@ def given_unused(register_map: RegisterMap, scopes: Scopes) -> Iterator[Finding]
     parts = (part for register in registers for part in parts_of((register.scale, register.range, register.views)))
     used |= {part.given for part in parts if isinstance(part, GivenRef)}
     for scope in scopes:
-        computed = parts_of(tuple((one.term, one.valid, one.when) for one in scope.model.computed))
+        computed = parts_of(tuple((one.term, one.valid) for one in scope.model.computed))
         used |= {part.given for part in computed if isinstance(part, GivenRef | Is)}
-        for command in scope.model.commands:
-            whens = (command.when, *(step.when for step in command.steps))
-            used |= {test.given for when in whens for test in when.leaves}
+        used |= {test.given for *_, when in conditional(scope.model) for test in when.leaves}
     for given in register_map.givens:
         if given.id not in used:
             message = f"given `{given.id}` decides nothing"

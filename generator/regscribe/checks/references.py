@@ -4,6 +4,7 @@ from collections.abc import Iterable, Iterator
 from fractions import Fraction
 from itertools import chain
 
+from regscribe.checks.conditions import conditional
 from regscribe.checks.held_values import NUMBERS
 from regscribe.checks.rule import Finding, Problem, RuleScope, model_rule, register_rule
 from regscribe.model import (
@@ -148,14 +149,28 @@ def _others(name: str, scope: RuleScope) -> Iterator[str]:
     return iter(dict.fromkeys(path for path, _ in needed(scope.registers[name])))
 
 
-@register_rule("RS0463", "Needed register cannot be read")
-def unreadable(register: Register, scope: RuleScope) -> Iterator[Problem]:
+@model_rule("RS0463", "Needed register cannot be read")
+def unreadable(scope: RuleScope) -> Iterator[Finding]:
     """A value that decides must be readable, or it is never known."""
-    for path, why in dict.fromkeys((*needed(register), *limiting(register))):
-        other = scope.registers.get(path)
-        if other and not other.access.readable:
-            related = Related(f"`{path}` has access {other.access}", other.span)
-            yield f"needs `{path}` ({why} it), which can only be written", "correct one", related
+    for register in scope.model.registers:
+        for path, why in dict.fromkeys((*needed(register), *limiting(register))):
+            for other in _unreadable(path, scope):
+                message = f"needs `{path}` ({why} it), which can only be written"
+                yield Finding.at(register, message, "correct one", _access_of(other))
+    for what, thing, span, when in conditional(scope.model):
+        for other in chain.from_iterable(_unreadable(path, scope) for path in when.registers):
+            message = f"{what} has a condition on `{other.path}`, which can only be written"
+            yield Finding(thing, span, message, "correct one", _access_of(other))
+
+
+def _unreadable(path: str, scope: RuleScope) -> Iterator[Register]:
+    other = scope.registers.get(path)
+    if other and not other.access.readable:
+        yield other
+
+
+def _access_of(register: Register) -> Related:
+    return Related(f"`{register.path}` has access {register.access}", register.span)
 
 
 @register_rule("RS0464", "Decimals from a register that is no whole number")

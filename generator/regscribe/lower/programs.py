@@ -1,6 +1,6 @@
 """Setpoint programs: the names of registers become paths in which the numbers of program and segment are left open."""
 
-from regscribe.lower.conditions import write_condition
+from regscribe.lower.conditions import condition_of, write_condition
 from regscribe.lower.node import Value
 from regscribe.lower.program_registers import ProgramPlace, numbers_of
 from regscribe.lower.registers import inferred_of
@@ -60,6 +60,7 @@ def _program(node: Value, scope: Scope) -> SetpointProgram:
         hold=_action(node.child("hold"), place),
         resume=_action(node.child("resume"), place),
         reset=_action(node.child("reset"), place),
+        when=condition_of(node, scope),
         while_running=node.choice_of("while_running", WhileRunning.NOT_STATED),
     )
 

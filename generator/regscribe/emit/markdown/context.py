@@ -119,6 +119,8 @@ def _conditions(
         for command in model.commands:
             yield model, command.when
             yield from ((model, step.when) for step in command.steps)
+        for program in model.programs:
+            yield from ((model, when) for when in program.conditions)
     for identity in register_map.identity:
         yield register_map.models[0], identity.identity.when
 

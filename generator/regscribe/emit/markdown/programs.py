@@ -90,6 +90,7 @@ class _Words:
 
 def _facts(words: _Words) -> Iterator[tuple[str, Md]]:
     program = words.program
+    yield "Exists only if", Md() if program.when.always else words.context.condition(program.when, words.model)
     yield from _segments(words)
     yield from _settings(words)
     yield from _states(words)

@@ -131,6 +131,7 @@ def _stated(given: Given, value: GivenValue) -> bool | str | Fraction | frozense
 def _used_givens(model: Model) -> Iterator[str]:
     whens = [register.when for register in model.registers]
     whens += [one.when for command in model.commands for one in (command, *command.steps)]
+    whens += [when for program in model.programs for when in program.conditions]
     yield from (test.given for when in whens for test in when.leaves if test.given)
     for register in model.registers:
         permission = (register.writable,) if register.writable else ()

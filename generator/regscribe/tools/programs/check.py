@@ -40,6 +40,7 @@ def check(place: ProgramSlot, program: Program, *, beyond_limits: bool = False) 
     """Check a program against a device as it is configured now; with `beyond_limits` inferred limits do not count."""
 
     def task(session: Session) -> Operation[Checked]:
+        yield from place.exists(session)
         made = Assignments(place, program)
         planned = []
         paths = {path for one in made.assignments for path in needs(one.register)}

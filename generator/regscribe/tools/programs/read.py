@@ -16,6 +16,7 @@ def read(place: ProgramSlot) -> Task[Program]:
     """Read a program: its segments in use, or all that may be in use where the manual leaves their number open."""
 
     def task(session: Session) -> Operation[Program]:
+        yield from place.exists(session)
         snapshot = yield from read_with(_registers(place), needs)(session)
         unit = ""
         if place.spec.time_unit:

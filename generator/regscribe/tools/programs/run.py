@@ -39,6 +39,7 @@ def status(place: ProgramSlot) -> Task[ProgramState]:
     """Read the state of the device."""
 
     def task(session: Session) -> Operation[ProgramState]:
+        yield from place.exists(session)
         spec = place.spec
         told = (spec.status.register if spec.status else "", spec.program_now, spec.segment_now, spec.setpoint_now)
         registers = {path: place.register(path) for path in told if path}

@@ -6,6 +6,8 @@ from typing import Any
 
 from regscribe.tools.live.errors import TargetError, unknown
 from regscribe_runtime import AsyncBareDevice, BareDevice, Register, SetpointProgram
+from regscribe_runtime.operations.read import exists
+from regscribe_runtime.operations.session import Operation, Session
 from regscribe_runtime.values.programs import numbered
 
 Driver = BareDevice | AsyncBareDevice | type[BareDevice] | type[AsyncBareDevice]
@@ -25,6 +27,10 @@ class ProgramSlot:
     def name(self) -> str:
         """`recipe`, or with its number `program 2`."""
         return f"{self.spec.id} {self.number}" if self.spec.programs else self.spec.id
+
+    def exists(self, session: Session) -> Operation[None]:
+        """Raise NotPresent if the device has no such program now, by what it says."""
+        return exists(session, self.name, self.spec.when)
 
     def register(self, path: str, segment: int = 0) -> Register[Any]:
         """The register of a path of the declaration, for this program and a segment."""

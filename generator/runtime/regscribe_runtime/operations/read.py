@@ -24,9 +24,9 @@ from regscribe_runtime.planning.address_ranges import RegisterSpan, span_of
 from regscribe_runtime.planning.plan import Block, RequestLimits, blocks
 from regscribe_runtime.planning.read_places import read_places
 from regscribe_runtime.registers import codec
-from regscribe_runtime.registers.presence import absence
+from regscribe_runtime.registers.presence import absence, condition_text, seen
 from regscribe_runtime.registers.register import Register
-from regscribe_runtime.values.conditions import choose, registers_of
+from regscribe_runtime.values.conditions import Condition, choose, registers_of
 from regscribe_runtime.values.views import View
 from regscribe_runtime.wire.requests import Request
 
@@ -122,6 +122,13 @@ def absences(session: Session, paths: Iterable[str], *, depth: int = 0) -> Opera
     unknown = yield from _unknown(session, chain.from_iterable(one.when.registers for one in asked), depth=depth + 1)
     found = {one.path: absence(one.path, one.when, session.memory, session.givens, unknown) for one in asked}
     return {path: error for path, error in found.items() if error}
+
+
+def exists(session: Session, name: str, when: Condition) -> Operation[None]:
+    """Raise NotPresent if what is no register (a command, a setpoint program) does not exist now."""
+    state = yield from know(session, when.registers, fresh=True)
+    if not when.holds(state, session.givens):
+        raise NotPresent(name, condition_text(when, state), seen(when, state, session.givens))
 
 
 def present(session: Session, register: Register[Any], *, fresh: bool = False) -> Operation[None]:

@@ -9,7 +9,6 @@ from typing import Any, Protocol
 from regscribe_runtime.errors import (
     ConditionNotMet,
     NotApplied,
-    NotPresent,
     NotWritten,
     RegscribeError,
     ValueRefused,
@@ -18,11 +17,11 @@ from regscribe_runtime.errors import (
 )
 from regscribe_runtime.errors import lost as failed
 from regscribe_runtime.operations.locate import base_of
-from regscribe_runtime.operations.read import know
+from regscribe_runtime.operations.read import exists, know
 from regscribe_runtime.operations.read_back import RegisterWrite
 from regscribe_runtime.operations.session import Operation, Pause, Session, Task
 from regscribe_runtime.registers import codec
-from regscribe_runtime.registers.presence import condition_text, seen
+from regscribe_runtime.registers.presence import seen
 from regscribe_runtime.registers.register import Register
 from regscribe_runtime.report import Words
 from regscribe_runtime.values.conditions import Condition, Givens, State
@@ -98,10 +97,7 @@ def run(command: Sendable, *, confirm: bool, values: Mapping[str, object] = Mapp
     def task(session: Session) -> Operation[None]:
         if command.danger and not confirm:
             raise ValueRefused(command.id, f"this command is dangerous ({command.danger}): pass confirm=True")
-        state = yield from know(session, command.when.registers, fresh=True)
-        if not command.when.holds(state, session.givens):
-            present = seen(command.when, state, session.givens)
-            raise NotPresent(command.id, condition_text(command.when, state), present)
+        yield from exists(session, command.id, command.when)
         given = yield from _words_of_arguments(session, command, values)
         steps = [one._replace(words=given.get(one.argument, one.words)) for one in command.steps]
         try:

@@ -6,6 +6,7 @@ A path has `{i}` for the number of the program and `{j}` for that of the segment
 from enum import StrEnum
 from typing import NamedTuple
 
+from regscribe_runtime.values.conditions import ALWAYS, Condition
 from regscribe_runtime.values.facts import WriteCondition
 from regscribe_runtime.values.numbers import Number
 
@@ -108,7 +109,8 @@ class SetpointProgram(NamedTuple):
 
     `counts` tells which segments `number_of_segments` counts, `forever` is the code of `cycles` for a program without
     end, `setpoint_limits` are two registers that the setpoints lie between, `enable` makes the device run this program,
-    `requires` is the condition of a start, `order` has the parts as they are written.
+    `requires` is the condition of a start, `order` has the parts as they are written, and it exists only while `when`
+    holds.
     """
 
     id: str
@@ -139,6 +141,12 @@ class SetpointProgram(NamedTuple):
     reset: ProgramAction = NO_WAY
     while_running: WhileRunning = WhileRunning.NOT_STATED
     order: tuple[ProgramPart, ...] = tuple(ProgramPart)
+    when: Condition = ALWAYS
+
+    @property
+    def conditions(self) -> tuple[Condition, ...]:
+        """That of its existence and, where there is one, that of a start."""
+        return (self.when, self.requires.when) if self.requires else (self.when,)
 
     @property
     def numbers(self) -> tuple[int, ...]:

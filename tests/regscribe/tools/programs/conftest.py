@@ -98,10 +98,11 @@ def serve() -> Serve:
 
 
 class Built(NamedTuple):
-    """A compiled map and its generated driver class."""
+    """A compiled map and its generated driver classes."""
 
     map: RegisterMap
     driver: Any
+    asynchronous: Any
 
 
 @pytest.fixture(scope="session")
@@ -118,7 +119,8 @@ def build(tmp_path_factory: pytest.TempPathFactory) -> Callable[[str], Built]:
         assert spec.loader is not None
         module = importlib.util.module_from_spec(spec)
         spec.loader.exec_module(module)
-        return Built(register_map, getattr(module, register_map.models[0].class_name))
+        name = register_map.models[0].class_name
+        return Built(register_map, getattr(module, name), getattr(module, f"Async{name}"))
 
     return make
 
