@@ -180,6 +180,27 @@ groups:
 """
 
 
+FOLLOWING = (
+    SMALL.replace("decimals: {places: {register: places}}\n", "")
+    + """
+      - {at: 10, name: Source, access: r, default: 3}
+      - {at: 11, name: Lamps, flags: {0: {label: lit, follows: {source: 4}}, 1: other}}
+      - {at: 12, name: Parts, fields: {lit: {bit: 0, follows: {source: 4}}, other: {bits: "1..2"}}}
+"""
+)
+
+
+@pytest.mark.parametrize(("at", "sent", "stays"), [(11, 3, 2), (12, 7, 6)])
+def test_a_write_does_not_keep_a_bit_from_following(at: int, sent: int, stays: int, tmp_path: Path) -> None:
+    path = tmp_path / "following.yaml"
+    path.write_text(FOLLOWING, encoding="utf-8")
+    compiled = compile_map(path)
+    assert compiled.map is not None, compiled.diagnostics
+    device = SimulatedDevice(compiled.map, "A")
+    write(device, at, sent)
+    assert device.handle(struct.pack(">BHH", 3, at, 1)) == bytes((3, 2)) + struct.pack(">H", stays)
+
+
 @pytest.fixture
 def shadows(tmp_path: Path) -> SimulatedDevice:
     """C shadows B, which lasts, and A shadows C; E shadows F, which follows B; Places shadow Kept Places."""

@@ -46,6 +46,7 @@ class Conduct:
         if register.rescales and after != before:
             self._rescale(register, before, after)
         self._pass_on(register, after)
+        state.set_bits(register)
         self._own.add(path)
         self._shade(register)
         if register.stays == "momentary":

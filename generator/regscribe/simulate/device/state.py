@@ -230,6 +230,13 @@ class DeviceState(PresentMeaning):
         for follower in self.blueprint.followers.get(path, ()):
             self._follow(follower)
 
+    def set_bits(self, register: Register) -> None:
+        """Set and clear the bits of a register that follow a condition, whatever was written there."""
+        held = self.stored(register.path)
+        stored = self._with_bits(register, held)
+        if stored != held and register.path not in self._driven:
+            self.store(register.path, stored)
+
     def _follow(self, register: Register) -> None:
         path = register.path
         if path in self._driven or path in self._settling:  # the latter: a circle, which has to end somewhere
@@ -250,6 +257,9 @@ class DeviceState(PresentMeaning):
             stored = self.in_effect(source)
             if isinstance(stored, Fraction) and self._model.register(source).scale != register.scale:
                 stored = self.quantise(register, self.from_value(register, self.look_up(source)))
+        return self._with_bits(register, stored)
+
+    def _with_bits(self, register: Register, stored: Stored) -> Stored:
         for field in register.fields:
             if field.follows is not None and isinstance(stored, Fraction):
                 stored = with_field(stored, field, Fraction(int(holds(field.follows, self))))
