@@ -3,7 +3,7 @@
 import inspect
 import re
 import sys
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterator, Mapping
 from contextlib import redirect_stderr, redirect_stdout, suppress
 from functools import partial
 from io import StringIO
@@ -15,6 +15,7 @@ from regscribe.cli.app import run
 from regscribe.emit import markdown, python, vectors
 from regscribe.export import csv, json
 from regscribe.model import Command, Model, Register, RegisterMap, Space, View
+from regscribe.model.located import layout_of
 from regscribe.simulate.device.device import SimulatedDevice
 from regscribe.testing.simulated_read import givens_of
 from regscribe_runtime.driver.computed import Computed
@@ -25,14 +26,16 @@ from .wire import Memory
 
 STATES = range(3)
 """Of how many kinds what a device holds is: all words 0, or each word 0 to 3 by its address."""
-FEW_VALUES, FEW_MEMBERS = 4, 3
+FEW_VALUES, FEW_MEMBERS, PARTS = 4, 3, (0, 1, 5, 100)
 WRITTEN = (0, 1, 2, 5, 300)
 """Words that a master writes to a simulated device."""
 SPACES = {1: Space.COIL, 2: Space.DISCRETE, 3: Space.HOLDING, 4: Space.INPUT}
 MANY, SECONDS = 200, 40
 SINGLE, SEVERAL = 6, 16
-STRETCHES = ((0, 1), (1, 2), (7, 4), (8, MANY), (0, 13), (1, 6), (1, 5), (2000, 1), (2001, 2), (9999, 1))
+STRETCHES = ((0, 1), (1, 2), (7, 4), (8, MANY), (0, 13), (0, 22), (1, 6), (1, 5), (2016, 1), (2017, 2), (9999, 1))
 """Addresses and quantities that a master asks for."""
+ELSEWHERE, FIRST, TIMES, MOST_WRITTEN = (7, 9, 703, 802, 9999), 140, (1, 2, 6, 9), 123
+"""Addresses of no register that are written; so many addresses are read one by one; how many values a write has."""
 Facts = Iterator[object]
 Done = Callable[[Callable[[], Any]], object]
 
@@ -42,12 +45,18 @@ class Held(Memory):
 
     state = 0
 
+    def __init__(self, headers: Mapping[tuple[Space, int], int]) -> None:
+        super().__init__()
+        self.headers = headers
+
     def get(self, space: str, address: int, count: int) -> list[int]:
         """What was written there, or a number from the address."""
         most = 1 if space in {"coil", "discrete"} else 3
         cells = self.cells[space]
         kinds = 4 if self.state else 1
-        return [cells.get(at, (at * 7 // 3 + self.state) % kinds & most) for at in range(address, address + count)]
+        held = {at: (at * 7 // 3 + self.state) % kinds & most for at in range(address, address + count)}
+        held |= {at: word for (where, at), word in self.headers.items() if where == space and at in held}
+        return [cells.get(at, word) for at, word in held.items()]
 
 
 def of_drivers(register_map: RegisterMap) -> Facts:
@@ -56,12 +65,13 @@ def of_drivers(register_map: RegisterMap) -> Facts:
     for model in register_map.models:
         cls = getattr(module, model.class_name)
         yield (cls.__name__, str(cls.protocol), cls.map_id)
+        headers = layout_of(register_map, model, {}).words
         for state in STATES:
-            memory = Held()
+            memory = Held(headers)
             memory.state = state
             yield from _of_driver(cls, Wire(memory.answer), memory)
         device = SimulatedDevice(register_map, model.name, givens=_given(register_map))
-        yield from _of_driver(cls, Wire(partial(_heard, device)), Held())
+        yield from _of_driver(cls, Wire(partial(_heard, device)), Held({}))
 
 
 def _heard(device: SimulatedDevice, pdu: bytes) -> bytes:
@@ -90,7 +100,7 @@ def _of_driver(cls: Any, wire: Wire, memory: Held) -> Facts:
 
     yield done(lambda: [(path, shown(value)) for path, value in device.read().entries.items()])
     for group in _groups(device):
-        yield done(lambda: shown(device.read(group)))  # noqa: B023 (done at once)
+        yield (group.id, group.name, done(lambda: shown(device.read(group))))  # noqa: B023 (done at once)
     for register in device.registers.values():
         yield from _of_register(device, register, done, is_written=memory.state == 1)
     for name, one in inspect.getmembers(cls, lambda one: isinstance(one, Computed)):
@@ -112,6 +122,17 @@ def _of_register(device: Any, register: Any, done: Done, *, is_written: bool) ->
     if register.access != "r" and is_written:
         for value in _few(register):
             yield from (done(partial(bound.write, value, view=view.name)) for view in register.views)
+        yield from (done(partial(_replaced, register, part, value)) for part in _parts(register) for value in PARTS)
+
+
+def _parts(register: Any) -> tuple[str, ...]:
+    """The parts of a word of bit fields."""
+    return getattr(getattr(register.value_type, "members", None), "parts", ())
+
+
+def _replaced(register: Any, part: str, value: float) -> object:
+    """A word whose part has another value."""
+    return register.value_type.make(0).replace(**{part: value})
 
 
 def _few(register: Any) -> list[Any]:
@@ -134,6 +155,7 @@ def _of_commands(device: Any, done: Done) -> Facts:
     section = getattr(type(device), "commands", None)
     for name, one in section.commands().items() if section else ():
         call = getattr(device.commands, name)
+        yield {argument: each.unit for argument, each in one.arguments.items()}
         for arguments in _arguments(one):
             calls = (partial(call, **arguments), partial(call, confirm=True, **arguments))
             yield (name, str(arguments), *map(done, calls))
@@ -159,6 +181,7 @@ def of_simulators(register_map: RegisterMap) -> Facts:
         for process in sorted({False, model.process is not None}):
             device = SimulatedDevice(register_map, model.name, givens=_given(register_map), process=process)
             yield from _asked(device)
+            yield [device.handle(_read(space, at, 1)) for space in (Space.HOLDING, Space.INPUT) for at in range(FIRST)]
             yield from _lived(device, model)
 
 
@@ -188,6 +211,8 @@ def _lived(device: SimulatedDevice, model: Model) -> Facts:
         for view in register.views:
             for word in WRITTEN:
                 yield from _written(device, register, view, word)
+                yield device.peek(register.path)
+    yield from (device.handle(bytes([6]) + _two(at, 1)) for at in ELSEWHERE)
     yield from _asked(device)
     for command in model.commands:
         yield from _commanded(device, command)
@@ -208,8 +233,7 @@ def _written(device: SimulatedDevice, register: Register, view: View, word: int)
     elif start < 1 << 16:
         yield device.handle(bytes([6]) + _two(start, word), broadcast=True)
         yield device.handle(bytes([6]) + _two(start, word))
-        yield device.handle(_write(start, words))
-        yield device.handle(_write(start, words * 9))
+        yield from (device.handle(_write(start, (words * times)[:MOST_WRITTEN])) for times in TIMES)
 
 
 def _commanded(device: SimulatedDevice, command: Command) -> Facts:

@@ -26,7 +26,7 @@ CHILD = "test/child.yaml"
 """The map that has something of others."""
 SPECIMENS = Path(__file__).parent / "specimens" / "maps"
 TRIED, MOST_VALUES, MOST_PLACES, MOST_SHOWN = 15, 2, 3, 60
-"""How many other values of a key are tried, how many of them that no rule refuses, and in how many places."""
+"""How many other values of a key are tried, how many of them that no rule refuses, in how many small and large maps."""
 
 
 SETTLED = frozenset(
@@ -61,6 +61,29 @@ SETTLED = frozenset(
         "write",
         "writable",
         "inferred",
+        "protocol",
+        "faults",
+        "serial",
+        "chain",
+        "given",
+        "condition",
+        "enum_case",
+        "member_details",
+        "byte_order_case",
+        "order_from_register",
+        "term",
+        "term_case",
+        "group",
+        "sentinel_case",
+        "flags",
+        "flag_details",
+        "field",
+        "computed",
+        "command",
+        "step",
+        "step_argument",
+        "argument",
+        "repeat",
     )
 )
 """Objects of which each key was tried, and is what is said here; of the others each key has a specimen."""
@@ -89,6 +112,23 @@ FOR_READERS = frozenset(
         "writable.reason",
         "inferred.what",
         "inferred.why",
+        "protocol.source",
+        "serial.description",
+        "given.reason",
+        "member_details.cells",
+        "member_details.description",
+        "group.description",
+        "flags.none",
+        "flag_details.description",
+        "field.unit",
+        "field.description",
+        "computed.name",
+        "computed.description",
+        "computed.source",
+        "command.name",
+        "command.description",
+        "command.source",
+        "argument.description",
     )
 )
 """Keys by which nobody does anything else: they are said in the docs."""
@@ -180,7 +220,7 @@ def places() -> dict[str, list[tuple[Found, Specimen]]]:
 def judge(key: str, where: list[tuple[Found, Specimen]], wanted: Callable[[frozenset[str]], bool]) -> Verdict:
     """What a key changes, in as many places and ways as it takes until that is what is wanted."""
     sides, tried = frozenset[str](), []
-    for found, specimen in where[:MOST_PLACES]:
+    for found, specimen in (*where[:MOST_PLACES], *where[MOST_PLACES:][-MOST_PLACES:]):
         before = _outcome(specimen, dump(plain(specimen.document)))
         assert before is not None, specimen
         for value, now in islice(_accepted(found, specimen), MOST_VALUES):
@@ -220,7 +260,8 @@ def _values(value: Any, node: Json, document: Any) -> Iterator[Any]:
     elif isinstance(value, str):
         yield from _texts(value, document)
     elif isinstance(value, list):
-        yield from (other for other in (value[:-1], value[::-1], [_next(one) for one in value]) if other != value)
+        others = (value[:-1], value[1:], value[::-1], [_next(one) for one in value])
+        yield from (other for other in others if other != value)
     elif isinstance(value, dict):
         yield from ({key: each for key, each in value.items() if key != gone} for gone in value)
 
