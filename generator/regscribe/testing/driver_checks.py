@@ -10,7 +10,7 @@ from regscribe.testing.vectors import Json, Trial, Vectors, known, number
 from regscribe_runtime.registers.register import Register
 from regscribe_runtime.values.conditions import ALWAYS
 from regscribe_runtime.values.facts import CommandStep
-from regscribe_runtime.values.wire_types import PAGE_BITS
+from regscribe_runtime.values.wire_types import PARTED
 
 WRITE_COIL, WRITE_COILS = 5, 15
 WRITE_ONE = (5, 6)
@@ -81,14 +81,16 @@ class DriverUnderTest:
             register = self._register(place["path"])
             if register is None:
                 continue
-            first = place.get("page", 0) << PAGE_BITS
-            addresses = {view.name: view.space.plain(view.address(register.at) - first) for view in register.views}
-            yield from differs(place["path"], "addresses", addresses, place["addresses"])
+            facts = {view.name: view.space.facts(view.address(register.at)) for view in register.views}
+            yield from differs(place["path"], "addresses", facts, _facts(place))
+            pages = {one["page"] for one in facts.values() if "page" in one}
+            units = {unit for page in pages if (unit := self.driver._pages[page - 1].unit)}  # noqa: SLF001 (a fact for the judges)
+            yield from differs(place["path"], "unit ids", units, {place["unit_id"]} if "unit_id" in place else set())
             yield from differs(place["path"], "block", register.block, place.get("block", ""))
             yield from differs(
                 place["path"],
                 "aliases",
-                [register.views[0].space.plain(alias - first) for alias in register.aliases],
+                [register.views[0].space.inside(alias) for alias in register.aliases],
                 place.get("aliases", []),
             )
             default = "" if register.default is None else spelled(register, register.default)
@@ -112,13 +114,11 @@ class DriverUnderTest:
     def _commands(self) -> Iterator[str]:
         section = getattr(self.driver, "commands", None)
         found = {
-            name: (bool(one.danger), [_as_sent(step) for step in one.steps])
+            name: (bool(one.danger), [_step(step) for step in one.steps])
             for name, one in (section.commands() if section else {}).items()
         }
         expected = {
-            one["id"]: (one["danger"], [_step(step) for step in one["steps"]])
-            for one in self.vectors.commands
-            if self.model in one["models"]
+            one["id"]: (one["danger"], one["steps"]) for one in self.vectors.commands if self.model in one["models"]
         }
         yield from differs(self.model, "commands", found, expected)
 
@@ -231,14 +231,19 @@ def _hex(words: tuple[int, ...]) -> str:
     return " ".join(f"{word:04X}" for word in words)
 
 
-def _as_sent(step: CommandStep) -> CommandStep:
-    """A step with the address that stands in its request."""
-    return step._replace(address=step.space.plain(step.address), when=ALWAYS)
+def _facts(place: Json) -> dict[str, dict[str, int]]:
+    """The address of each view, with the file, the queue or the page that it is in."""
+    page = {"page": place["page"]} if "page" in place else {}
+    found = {name: {"address": address} | page for name, address in place["addresses"].items()}
+    for space in PARTED:
+        for name, part in place.get(f"{space}s", {}).items():
+            found[name][str(space)] = part
+    return found
 
 
-def _step(step: Json) -> CommandStep:
-    """Return a step of a command as the runtime has it."""
-    if "wait" in step:
-        return CommandStep(0, 0, (), step["wait"])
-    more = {key: step.get(key, "") for key in ("block", "argument")}
-    return CommandStep(step["function"], step["address"], tuple(step["words"]), **more)
+def _step(step: CommandStep) -> Json:
+    """Return a step of a command as vectors have it."""
+    if not step.words:
+        return {"wait": step.wait}
+    more = {key: text for key in ("block", "argument") if (text := getattr(step, key))}
+    return {"function": step.function, **step.space.facts(step.address), "words": list(step.words), **more}

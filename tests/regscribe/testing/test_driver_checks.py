@@ -44,7 +44,7 @@ def first(entry: dict[str, Any], what: str) -> dict[str, Any]:
         (lambda one: first(one, "decode").update(value="1"), "check_decoding", "expected '1'"),
         (lambda one: first(one, "encode").update(words=[7]), "check_encoding", "expected [7]"),
         (lambda one: first(one, "refuse").update(value="25"), "check_refusals", "expected a refusal"),
-        (lambda one: one["registers"][0]["addresses"].update(base=5), "check_registers", "{'base': 5}"),
+        (lambda one: one["registers"][0]["addresses"].update(base=5), "check_registers", "{'base': {'address': 5}}"),
         (lambda one: one["registers"][0].update(aliases=[99]), "check_registers", "[99]"),
         (lambda one: one.update(access="r"), "check_registers", "expected 'r'"),
     ],

@@ -90,7 +90,7 @@ def _step(step: CommandStep) -> Json:
         return {"wait": step.wait}
     found: Json = {
         "function": step.function,
-        "address": step.space.plain(step.address),
+        **step.space.facts(step.address),
         "words": [word & 0xFFFF for word in step.words],
     }
     more = {key: text for key in ("block", "argument") if (text := getattr(step, key))}

@@ -13,6 +13,7 @@ from regscribe.model import (
     PLAIN_READING,
     Condition,
     Enum,
+    Model,
     Order,
     OrderCases,
     Register,
@@ -24,12 +25,13 @@ from regscribe.model import (
     always,
     show,
 )
-from regscribe_runtime.values.wire_types import PAGE_BITS
+from regscribe_runtime.values.wire_types import PARTED
 
 Json = dict[str, Any]
 Sides = tuple[tuple[Situation, bool], ...]
 Plan = tuple[tuple[tuple[Situation, ...], ...], Sides, Sides]
 NOWHERE = Span("")
+PARTS = sorted(map(str, PARTED))
 
 
 def vector_sets(register_map: RegisterMap) -> list[Json]:
@@ -47,7 +49,7 @@ def vector_sets(register_map: RegisterMap) -> list[Json]:
                 content = _content(*bare)
                 keys[bare] = json.dumps(content)
                 contents[keys[bare]] = content
-            places.setdefault(keys[bare], []).append((model.name, _place(register)))
+            places.setdefault(keys[bare], []).append((model.name, _place(model, register)))
     return [{"registers": once_for_models(places[key], "path"), **content} for key, content in contents.items()]
 
 
@@ -99,18 +101,20 @@ def _bare_enum(enum: Enum) -> Enum:
     return replace(enum, id="", description="", span=NOWHERE)
 
 
-def _place(register: Register) -> Json:
-    first = register.page << PAGE_BITS
-    found: Json = {
-        "path": register.path,
-        "addresses": {view.name: view.space.plain(view.address(register.at) - first) for view in register.views},
-    }
+def _place(model: Model, register: Register) -> Json:
+    facts = {view.name: view.space.facts(view.address(register.at)) for view in register.views}
+    found: Json = {"path": register.path, "addresses": {name: fact["address"] for name, fact in facts.items()}}
+    for key in PARTS:
+        if numbers := {name: fact[key] for name, fact in facts.items() if key in fact}:
+            found[f"{key}s"] = numbers
     if register.page:
         found["page"] = register.page
+        if unit := model.pages[register.page - 1].unit:
+            found["unit_id"] = unit
     if register.block:
         found["block"] = register.block
     if register.aliases:
-        found["aliases"] = [register.base.space.plain(alias - first) for alias in register.aliases]
+        found["aliases"] = [register.base.space.inside(alias) for alias in register.aliases]
     if register.default is not None:
         found["default"] = register.default if isinstance(register.default, str) else show(register.default)
     return found
