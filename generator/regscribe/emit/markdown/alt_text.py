@@ -7,7 +7,7 @@ from regscribe.emit.markdown.context import SPACES, PageContext
 from regscribe.emit.markdown.escape import Md, md
 from regscribe.emit.outline import Branch, Leaf, formula, leaves, lettered
 from regscribe.emit.words import bits_words, listed, one_line, span_words
-from regscribe.model import RegisterMap, Space
+from regscribe.model import Register, RegisterMap, Space
 
 MANY = 12
 """Things that are listed before the rest is counted."""
@@ -24,7 +24,28 @@ def addresses(register_map: RegisterMap) -> str:
     found = {space: ends for space, ends in found.items() if not space.part_bits}
     spaces = {space: (min(found[space]), max(found[space])) for space in Space if space in found}
     spans = listed([f"{SPACES[space].lower()} {span_words(*ends)}" for space, ends in spaces.items()], last="and")
-    return f"Address map of {one_line(register_map.title)}: {spans}, in the colours of their groups."
+    words = f"Address map of {one_line(register_map.title)}: {spans}, in the colours of their groups."
+    return " ".join(filter(None, (words, undrawn(register_map))))
+
+
+def undrawn(register_map: RegisterMap) -> str:
+    """Return what the address map leaves out, with the names; nothing if it shows all."""
+    found: dict[str, dict[str, None]] = {}
+    for model in register_map.models:
+        for register in model.registers:
+            for place in filter(None, (_elsewhere(register, view.space) for view in register.views)):
+                found.setdefault(place, {})[one_line(register.name)] = None
+    places = [f"{place} ({'; '.join(_few(list(names)))})" for place, names in found.items()]
+    return f"Not in the picture: {listed(places, last='and')}." if places else ""
+
+
+def _elsewhere(register: Register, space: Space) -> str:
+    """Where a register stands that has no place among the addresses of all devices; empty for another."""
+    if space.part_bits:
+        return SPACES[space][0].lower() + SPACES[space][1:] if space is not Space.QUEUE else SPACES[space]
+    return (
+        "registers in blocks" if register.block else "registers on pages or at other unit ids" if register.page else ""
+    )
 
 
 def bits(leaf: Leaf) -> str:
@@ -51,7 +72,10 @@ def _few(parts: Sequence[str]) -> Sequence[str]:
 def address_map(context: PageContext) -> Md:
     """Return the picture of the address spaces; nothing if no register has an address of its own."""
     drawn = fixed(context.map)
-    return _picture(context, picture_paths.ADDRESSES, addresses(context.map)) if drawn else Md()
+    if not drawn:
+        return Md()
+    picture, rest = _picture(context, picture_paths.ADDRESSES, addresses(context.map)), undrawn(context.map)
+    return md(picture, Md("\n\n"), rest) if rest else picture
 
 
 def fixed(register_map: RegisterMap) -> bool:
