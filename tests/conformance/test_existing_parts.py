@@ -5,9 +5,12 @@ from typing import Any
 
 import pytest
 
+from regscribe.cli.shared.live_report import plain
 from regscribe.simulate.device.device import SimulatedDevice
+from regscribe.tools.live.reading import readings
 from regscribe.tools.live.value_text import as_text, choices, parse
 from regscribe.tools.settings import backup, restore
+from regscribe.tools.settings.backup_file import to_text
 from regscribe_runtime import ConditionNotMet, NotPresent, OutOfRange, ValueRefused
 
 from .matrix_watch import Wire
@@ -168,6 +171,34 @@ def test_a_snapshot_shows_the_parts_that_exist_and_what_the_others_hold() -> Non
     assert as_text(register, bench.driver.read()["parts"]) == "mode=5, go=false, rest=0x0030"
     bench.driver.card.write(1)
     assert as_text(register, bench.driver.read()["parts"]) == "mode=5, speed=3, go=false"
+
+
+LEFT_OUT = "it exists only while card is 1; card is 0"
+
+
+def test_a_reading_says_which_parts_and_flags_it_leaves_out_and_why() -> None:
+    bench = Bench(card=0, parts=0x0035, bits=3, level=95)
+    wanted = [bench.driver.registers[path] for path in ("parts", "bits", "level", "card")]
+    parts, bits, level, card = bench.driver.run(readings(wanted))
+    assert parts.spelled == f"mode=5, go=false, rest=0x0030 (without speed: {LEFT_OUT})"
+    assert plain(parts)["absent"] == {"speed": LEFT_OUT}
+    assert bits.spelled == f"RUN, bit_1 (without HOT: {LEFT_OUT})"
+    assert plain(bits) == {"value": ["RUN", "bit_1"], "unit": "", "absent": {"HOT": LEFT_OUT}}
+    assert level.absent == {"of": "95 lies outside 10 to 90"}
+    assert plain(card) == {"value": 0, "unit": ""}
+
+    bench.driver.card.write(1)
+    found = bench.driver.run(readings(wanted[:2]))
+    assert [one.spelled for one in found] == ["mode=5, speed=3, go=false", "RUN, HOT"]
+
+
+def test_a_backup_says_it_too_and_is_read_back() -> None:
+    bench = Bench(card=0, parts=0x0035, bits=3)
+    taken = bench.driver.run(backup(type(bench.driver)))
+    held = dict(taken.settings())
+    assert held["parts"].absent == {"speed": LEFT_OUT}
+    assert held["bits"].spelled == f"RUN, bit_1 (without HOT: {LEFT_OUT})"
+    assert f"absent: {{speed: {LEFT_OUT}}}" in to_text(taken)
 
 
 def test_configure_checks_each_value_in_the_state_that_those_before_it_leave() -> None:

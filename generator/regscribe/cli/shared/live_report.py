@@ -110,10 +110,11 @@ def heading(device: BareDevice, target: Target) -> dict[str, Any]:
 
 
 def plain(reading: RegisterReading) -> dict[str, Any]:
-    """A reading in JSON: value and unit, or the error in place of it."""
+    """A reading in JSON: value and unit, and why parts are left out; or the error in place of it."""
     if reading.error is not None:
         return {"error": {"kind": kind_of(reading.error), "message": str(reading.error)}}
-    return {"value": reading.value, "unit": reading.unit}
+    absent = {"absent": dict(reading.absent)} if reading.absent else {}
+    return {"value": reading.value, "unit": reading.unit, **absent}
 
 
 def show_requests(unsent: Unsent) -> None:

@@ -1,34 +1,40 @@
 """Reads several registers in few requests, as plain values with the present unit of each."""
 
 from collections.abc import Callable, Iterable, Mapping, Sequence
+from types import MappingProxyType
 from typing import Any, NamedTuple
 
 from regscribe.tools.live.names import Readable
 from regscribe.tools.live.value_text import Plain, as_text, is_number, show, text_of
-from regscribe_runtime import Computed, Register, RegscribeError, Snapshot
+from regscribe_runtime import Computed, Flags, NotPresent, OutOfRange, Register, RegscribeError, Snapshot, Word
 from regscribe_runtime.errors import ValueNotDecodable
 from regscribe_runtime.operations import tasks
 from regscribe_runtime.operations.compute import computed
 from regscribe_runtime.operations.read import know
 from regscribe_runtime.operations.session import Operation, Session, Task
+from regscribe_runtime.registers.presence import missing
 from regscribe_runtime.values.conditions import choose, registers_of
 
 
 class RegisterReading(NamedTuple):
-    """A value of a register or a computed one: plain, as `text` for people, with its `unit`; or the `error` instead."""
+    """A value of a register or a computed one: plain, as `text` for people, with its `unit`; or the `error` instead.
+
+    `absent` are the flags and parts that it shows nothing of, each with the reason.
+    """
 
     name: str
     value: Plain | None
     text: str
     unit: str
     error: RegscribeError | None
+    absent: Mapping[str, str] = MappingProxyType({})
 
     @property
     def spelled(self) -> str:
         """For people: the value with its unit, or why there is none."""
         if self.error is not None:
             return f"({reason(self.error, self.name)})"
-        return f"{self.text} {self.unit}".rstrip()
+        return f"{self.text} {self.unit}".rstrip() + without(self.absent)
 
 
 def readings(wanted: Sequence[Readable]) -> Task[tuple[RegisterReading, ...]]:
@@ -38,7 +44,7 @@ def readings(wanted: Sequence[Readable]) -> Task[tuple[RegisterReading, ...]]:
         along = {path for one in wanted if isinstance(one, Computed) for path in one.needs}
         asked = [one for one in wanted if isinstance(one, Register)]
         asked += [session.registers[path] for path in sorted(along)]
-        snapshot = yield from read_with(asked, unit_needs)(session)
+        snapshot = yield from read_with(asked, shown_needs)(session)
         return tuple(_reading(one, snapshot, session.givens) for one in wanted)
 
     return task
@@ -47,19 +53,35 @@ def readings(wanted: Sequence[Readable]) -> Task[tuple[RegisterReading, ...]]:
 def _reading(one: Readable, snapshot: Snapshot, givens: Mapping[str, Any]) -> RegisterReading:
     unit = one.unit if isinstance(one, Computed) else unit_of(one, snapshot.valid, givens)
     try:
-        plain, text = _value(one, snapshot, givens)
+        if isinstance(one, Computed):
+            number = computed(one, snapshot.entries, givens)
+            return RegisterReading(one.path, number, text_of(number), unit, None)
+        value = snapshot[one.path]
     except RegscribeError as error:
         return RegisterReading(one.path, None, "", unit, error)
-    return RegisterReading(one.path, plain, text, unit if is_number(plain) else "", None)
+    absent = left_out(one, value, snapshot.valid, givens)
+    plain = show(one, value, absent)
+    return RegisterReading(one.path, plain, as_text(one, value, absent), unit if is_number(plain) else "", None, absent)
 
 
-def _value(one: Readable, snapshot: Snapshot, givens: Mapping[str, Any]) -> tuple[Plain, str]:
-    """A value, plain and as text; raises the error of one that there is not."""
-    if isinstance(one, Computed):
-        number = computed(one, snapshot.entries, givens)
-        return number, text_of(number)
-    value = snapshot[one.path]
-    return show(one, value), as_text(one, value)
+def left_out(
+    register: Register[Any],
+    value: Any,  # noqa: ANN401 - of any register
+    state: Mapping[str, Any],
+    givens: Mapping[str, Any],
+) -> dict[str, str]:
+    """The flags and parts of which a value shows nothing, each with the reason."""
+    errors: Mapping[str, object] = {}
+    if isinstance(value, Word):
+        errors = {name: part for name, part in value if isinstance(part, NotPresent | OutOfRange)}
+    elif isinstance(value, Flags):
+        errors = missing(register.path, register.partial, state, givens)
+    return {name: str(error).partition(": ")[2] for name, error in errors.items()}
+
+
+def without(absent: Mapping[str, str]) -> str:
+    """For people, behind a value: what it shows nothing of, and why; empty where it is whole."""
+    return f" (without {'; without '.join(f'{name}: {why}' for name, why in absent.items())})" if absent else ""
 
 
 def read_with(registers: Iterable[Register[Any]], needs: Callable[[Register[Any]], Iterable[str]]) -> Task[Snapshot]:
@@ -93,6 +115,11 @@ def held_of(register: Register[Any], value: Any, view: str | None) -> Task[Any]:
             return value
 
     return task
+
+
+def shown_needs(register: Register[Any]) -> tuple[str, ...]:
+    """The registers that decide the unit of a register, and which of its parts exist."""
+    return (*unit_needs(register), *registers_of(register.partial))
 
 
 def unit_needs(register: Register[Any]) -> tuple[str, ...]:

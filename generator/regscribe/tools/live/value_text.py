@@ -2,7 +2,7 @@
 
 import re
 import unicodedata
-from collections.abc import Iterable, Sequence
+from collections.abc import Collection, Iterable, Sequence
 from decimal import Decimal
 from typing import Any
 
@@ -38,14 +38,17 @@ _UNITS = {"degc": "°C", "degf": "°F", "c": "°C", "f": "°F", "℃": "°C", "�
 _TRUE, _FALSE = frozenset({"true", "on", "yes", "1"}), frozenset({"false", "off", "no", "0"})
 
 
-def show(register: Register[Any], value: Any) -> Plain:  # noqa: ANN401 - a value of any register
-    """A value of use as `parse` takes it: a number, a text, a name, the names of set flags, `part=value` of fields."""
+def show(register: Register[Any], value: Any, absent: Collection[str] = ()) -> Plain:  # noqa: ANN401 - a value of any register
+    """A value of use as `parse` takes it: a number, a text, a name, the names of set flags, `part=value` of fields.
+
+    Flags that are `absent` now are shown as bits without a name.
+    """
     if isinstance(value, (Choice, SpecialNumber)):
         return _name(register, value)
     if isinstance(value, Flags):
-        rest = unnamed_bits(value)
+        rest = unnamed_bits(value) | sum(int(member) for member in value if member.name in absent)
         unnamed = [f"bit_{bit}" for bit in range(rest.bit_length()) if rest >> bit & 1]
-        return [*(member.name or "" for member in value), *unnamed]
+        return [*(member.name or "" for member in value if member.name not in absent), *unnamed]
     if isinstance(value, Word):
         return _show_parts(value)
     if register.kind == "boolean":
@@ -55,11 +58,11 @@ def show(register: Register[Any], value: Any) -> Plain:  # noqa: ANN401 - a valu
     return value if isinstance(value, (int, float)) else str(value)
 
 
-def as_text(register: Register[Any], value: Any) -> str:  # noqa: ANN401 - as above
+def as_text(register: Register[Any], value: Any, absent: Collection[str] = ()) -> str:  # noqa: ANN401 - as above
     """A value of use for people, without its unit: `150.5`, `RUN`, `HEATER, FAN`."""
     if isinstance(value, Flags) and not value:
         return type(value).label_of_none() or text_of([])
-    return text_of(show(register, value))
+    return text_of(show(register, value, absent))
 
 
 def text_of(plain: Plain) -> str:

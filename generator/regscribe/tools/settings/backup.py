@@ -4,6 +4,7 @@ from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, field
 from typing import NamedTuple
 
+from regscribe.tools.live.reading import without
 from regscribe.tools.live.value_text import Plain, text_of
 
 FORMAT = 1
@@ -24,7 +25,8 @@ class Saved:
     """One setting: a plain value in `unit`, and the words that transmit it in the view that drivers prefer.
 
     Where the device held no value, `value` is None and `error` says why. `stays` is the kind of a setting that must not
-    be copied to another device, else empty.
+    be copied to another device, else empty. `absent` are flags and parts that do not show in the
+    value, with the reason.
     """
 
     value: Plain | None = None
@@ -32,13 +34,14 @@ class Saved:
     raw: tuple[int, ...] = ()
     stays: str = ""
     error: str = ""
+    absent: Mapping[str, str] = field(default_factory=dict)
 
     @property
     def spelled(self) -> str:
         """The value with its unit, or the error, for people."""
         if self.value is None:
             return f"({self.error})"
-        return f"{text_of(self.value)} {self.unit}".rstrip()
+        return f"{text_of(self.value)} {self.unit}".rstrip() + without(self.absent)
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)

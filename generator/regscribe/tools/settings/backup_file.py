@@ -41,7 +41,8 @@ def to_text(backup: Backup) -> str:
 
 
 def _entry(saved: Saved) -> OneLine:
-    given = {"unit": saved.unit, "error": saved.error, "raw": list(saved.raw), "stays": saved.stays}
+    given: dict[str, object] = {"unit": saved.unit, "error": saved.error, "raw": list(saved.raw), "stays": saved.stays}
+    given["absent"] = dict(saved.absent)
     value = {} if saved.value is None else {"value": saved.value}
     return OneLine(value | {key: what for key, what in given.items() if what})
 

@@ -2,12 +2,13 @@
 
 from collections.abc import Mapping
 from contextlib import suppress
+from dataclasses import replace
 from datetime import UTC, datetime
 from fractions import Fraction
 from typing import Any
 
 from regscribe.tools.live.names import Driver, groups_of, readable
-from regscribe.tools.live.reading import read_with, reason, unit_needs, unit_of
+from regscribe.tools.live.reading import left_out, read_with, reason, shown_needs, unit_of
 from regscribe.tools.live.value_text import is_number, show
 from regscribe.tools.settings.backup import NO_GROUP, Backup, BackupOrigin, Saved
 from regscribe_runtime import Register, RegscribeError
@@ -52,13 +53,15 @@ def backup(driver: Driver, *, link: str = "", now: datetime | None = None) -> Ta
     registers = {register.path: register for register in (*writable(driver), *identity)}
 
     def task(session: Session) -> Operation[Backup]:
-        snapshot = yield from read_with(registers.values(), unit_needs)(session)
+        snapshot = yield from read_with(registers.values(), shown_needs)(session)
         state = snapshot.valid
         saved: dict[str, Saved] = {}
         for path, register in registers.items():
             raw = snapshot.words.get(path, ())
             try:
-                saved[path] = _saved(register, snapshot[path], state, session.givens, raw)
+                absent = left_out(register, snapshot[path], state, session.givens)
+                held = _saved(register, snapshot[path], state, session.givens, raw)
+                saved[path] = replace(held, value=show(register, snapshot[path], absent), absent=absent)
             except RegscribeError as error:
                 saved[path] = Saved(error=reason(error, path), raw=raw, stays=register.stays)
         origin = BackupOrigin(
