@@ -134,6 +134,19 @@ def identification(register_map: RegisterMap) -> Iterator[Problem]:
         yield f"`identify` does not say how to tell {', '.join(missing)}", "add them"
 
 
+@map_rule("RS0699", "Identified by a register that a device may lack", warns=True)
+def identified_by_optional(register_map: RegisterMap, scopes: Scopes) -> Iterator[Finding]:
+    """A device without the register is not recognised, although it is one of the model."""
+    for scope in scopes:
+        rules = [one.identity for one in register_map.identity if scope.model.name in one.models]
+        for path in dict.fromkeys(path for rule in rules for path in rule.registers()):
+            register = scope.model.register(path)
+            if register.mandatory is False:
+                message = f"`identify` asks `{path}`, which not every {scope.model.name} has (`mandatory: false`)"
+                remedy = "ask a register that each has, or give the model a further entry without it"
+                yield Finding(path, register.span, message, remedy)
+
+
 @register_rule("RS0495", "Register without section", warns=True)
 def no_section(register: Register, _: RuleScope) -> Iterator[Problem]:
     """A reader must be able to look every value up in the manual."""

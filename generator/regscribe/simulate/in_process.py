@@ -2,7 +2,7 @@
 
 import asyncio
 import threading
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Collection, Iterator, Mapping, Sequence
 from contextlib import contextmanager
 from dataclasses import dataclass
 from pathlib import Path
@@ -83,6 +83,7 @@ def simulate(  # noqa: PLR0913 (all but two are keywords for tests)
     process: ThermalProcess | bool = False,
     state: str | Path | None = None,
     bases: Mapping[str, int] | None = None,
+    without: Collection[str] = (),
     **options: Unpack[SimulatorOptions],
 ) -> Iterator[Running]:
     """Serve one device from a thread of its own while the block runs; for sync and async clients in tests.
@@ -102,6 +103,7 @@ def simulate(  # noqa: PLR0913 (all but two are keywords for tests)
         addressing=addressing,
         process=process,
         bases=bases,
+        without=without,
     )
     if state is not None:
         device.load(state)

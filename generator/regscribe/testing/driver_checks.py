@@ -6,6 +6,7 @@ from typing import Any
 
 from regscribe.testing.compare import decoded, differs, encoded, expect_none, refused, same, spelled
 from regscribe.testing.computed import computed, computed_of
+from regscribe.testing.simulated_read import wrong_without
 from regscribe.testing.vectors import Json, Trial, Vectors, known, number
 from regscribe_runtime.registers.register import Register
 from regscribe_runtime.values.conditions import ALWAYS
@@ -74,7 +75,13 @@ class DriverUnderTest:
         differences = list(self._places())
         differences += [f"{path}: the driver of {self.model} lacks it" for path in sorted(expected - found)]
         differences += [f"{path}: {self.model} has no such register" for path in sorted(found - expected)]
+        differences += self._optional()
         expect_none(differences)
+
+    def _optional(self) -> Iterator[str]:
+        """What is wrong with a read of a device that lacks all that it may lack."""
+        optional = [place["path"] for place, _ in self.places if place.get("mandatory") is False]
+        yield from wrong_without(self.driver, optional) if optional else ()
 
     def _places(self) -> Iterator[str]:
         for place, entry in self.places:
@@ -87,6 +94,8 @@ class DriverUnderTest:
             units = {unit for page in pages if (unit := self.driver._pages[page - 1].unit)}  # noqa: SLF001 (a fact for the judges)
             yield from differs(place["path"], "unit ids", units, {place["unit_id"]} if "unit_id" in place else set())
             yield from differs(place["path"], "block", register.block, place.get("block", ""))
+            yield from differs(place["path"], "mandatory", register.mandatory, place.get("mandatory"))
+            yield from differs(place["path"], "static", register.static, place.get("static", False))
             yield from differs(
                 place["path"],
                 "aliases",

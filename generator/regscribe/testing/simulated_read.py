@@ -6,7 +6,7 @@ from collections.abc import Callable, Container, Iterable, Iterator, Sequence
 from fractions import Fraction
 from typing import Any, Literal, NamedTuple, get_args, get_origin
 
-from regscribe_runtime import NotPresent, ValueNotDecodable
+from regscribe_runtime import Absent, NotPresent, ValueNotDecodable
 from regscribe_runtime.operations import tasks
 from regscribe_runtime.operations.prepared_read import dependencies
 from regscribe_runtime.operations.session import Pause, Session
@@ -33,8 +33,15 @@ class ReadTrace(NamedTuple):
     session: Session
 
 
-def read_through(driver: Any, chosen: Sequence[Register[Any]], *, seed: int = 0, code: int = 0) -> ReadTrace:  # noqa: ANN401 (a generated class)
-    """Read registers from a device whose words follow from `seed`.
+def read_through(
+    driver: Any,  # noqa: ANN401 (a generated class)
+    chosen: Sequence[Register[Any]],
+    *,
+    seed: int = 0,
+    code: int = 0,
+    gone: Container[Cell] = (),
+) -> ReadTrace:
+    """Read registers from a device whose words follow from `seed`, and which lacks the addresses `gone`.
 
     Registers that the meaning of the chosen ones depends on are known to hold `code`, so that they are not read.
     """
@@ -51,8 +58,10 @@ def read_through(driver: Any, chosen: Sequence[Register[Any]], *, seed: int = 0,
                 continue
             requests.append(asked)
             space = asked.space or Space.HOLDING
-            words = tuple(word_at(space, asked.address + offset, seed) for offset in range(asked.quantity))
-            asked = operation.send(Reply(asked.function, words))
+            asked_for = [(space, asked.address + offset) for offset in range(asked.quantity)]
+            words = tuple(word_at(*cell, seed) for cell in asked_for)
+            refused = driver.protocol.absent if any(cell in gone for cell in asked_for) else None
+            asked = operation.send(Reply(asked.function, words, exception=refused))
     except StopIteration as done:
         return ReadTrace(tuple(requests), done.value, session)
     message = f"a read asked for {asked}"
@@ -187,6 +196,34 @@ def wrong_values(driver: Any, chosen: Sequence[Register[Any]], *, seed: int, cod
     return found
 
 
+def wrong_without(driver: Any, optional: Sequence[str]) -> list[str]:  # noqa: ANN401 (as above)
+    """Return what is wrong with a read of all registers from a device that lacks the optional ones.
+
+    They are absent, and so is what stands at their addresses alone; everything else is read as on another device.
+    Nothing is tried where a device does not answer for addresses that it does not have.
+    """
+    chosen = [one for one in driver.registers.values() if one.is_read_along]
+    if not driver.protocol.absent:
+        return []
+    whole = read_through(driver, chosen, seed=1)
+    lacking = set(optional)
+    gone = {cell for path, one in whole.session.registers.items() if path in lacking for cell in _cells(one)}
+    partly = read_through(driver, chosen, seed=1, gone=gone)
+    found = []
+    for path in partly.snapshot:
+        places = read_places(whole.session.registers[path])
+        absent = all(any((place.span.space, at) in gone for at in _addresses(place)) for place in places)
+        there, before = (_outcome(lambda path=path, of=of: of.snapshot[path]) for of in (partly, whole))  # type: ignore[misc]
+        expected = (Absent.__name__, "") if absent and before[0] != NotPresent.__name__ else before
+        if there != expected:
+            found.append(f"{path}: {there} of a device without {', '.join(optional)}, expected {expected}")
+    return found
+
+
+def _addresses(place: ReadPlace) -> range:
+    return range(place.span.address, place.span.end)
+
+
 def _alone(register: Register[Any], place: ReadPlace, session: Session, seed: int) -> Any:  # noqa: ANN401 (any value)
     if not session.has(register):
         raise NotPresent(register.path, "", {})
@@ -197,8 +234,8 @@ def _alone(register: Register[Any], place: ReadPlace, session: Session, seed: in
 def _outcome(read: Callable[[], Any]) -> tuple[str, Any]:
     try:
         value = read()
-    except NotPresent:
-        return NotPresent.__name__, ""
+    except (NotPresent, Absent) as error:
+        return type(error).__name__, ""
     except ValueNotDecodable as error:
         return type(error).__name__, str(error)
     return type(value).__name__, value

@@ -29,10 +29,13 @@ def command(*, target: Target, as_json: bool) -> int:
             certain=found.certain,
             models=[dict(zip(("model", "map", "title"), one, strict=True)) for one in titles],
             evidence=[_plain(one) for one in found.evidence],
+            lacking=[{"model": known.model, "map": known.map_id, **_plain(one)} for known, one in found.lacking],
         )
     else:
         show_table(("MODEL", "MAP", "WHAT IT IS"), titles)
         _remarks(len(found.models), [one for one in found.evidence if one.error is None])
+        for known, one in found.lacking:
+            remark(f"{known.model} is ruled out: {one.register} at address {one.address}, which each has, is refused")
     return refused_if(not found.models)
 
 

@@ -74,6 +74,7 @@ class Options(TypedDict):
 @click.option("--paced", is_flag=True, help=f"With `--rtu {PTY}`: bytes take their time at the speed of the line.")
 @click.option("--latency", default="off", metavar="off|real|F", help="The manual's answer times, or F times them.")
 @click.option("--addressing", type=click.Choice(ADDRESSINGS), default="modbus", help="Count addresses from 0 or 1.")
+@click.option("--without", multiple=True, metavar="NAME", help="Leave out a register that not every device has.")
 @click.option("--seed", type=int, default=0, metavar="N", help="Of everything that is left to chance.")
 @click.option("--process", metavar="on|KEY=VALUE,..", help="Let the process value move: gain=500,time_constant=120,..")
 @click.option(
@@ -98,6 +99,7 @@ def command(  # noqa: PLR0913 - one for each option that makes devices
     seed: int,
     process: str | None,
     state: str,
+    without: tuple[str, ...],
     **options: Unpack[Options],
 ) -> int:
     """Serve models of maps as Modbus devices, with their limits, refusals and silences, until Ctrl-C.
@@ -109,7 +111,7 @@ def command(  # noqa: PLR0913 - one for each option that makes devices
         refuse("choose one of --tcp HOST:PORT and --rtu DEVICE")
     motion = simulated_devices.process_of(process)
     common = {"addressing": addressing, "seed": seed, "process": motion, "state": state}
-    one = WantedDevice(map=map_name or "", model=model, unit=unit, givens=givens, bases=bases)
+    one = WantedDevice(map=map_name or "", model=model, unit=unit, givens=givens, bases=bases, without=without)
     wanted = [one] if map_name is not None else []
     wanted += [simulated_devices.wanted_device(text) for text in devices]
     wanted += simulated_devices.wanted_devices(Path(file)) if file is not None else []

@@ -21,7 +21,7 @@ from regscribe.tools.live.givens import Given, given_of
 from regscribe_runtime.values.blocks import bases_in
 from regscribe_runtime.values.serial_line import ADDRESSINGS, MODBUS
 
-KEYS = ("map", "model", "unit", "given", "base", "state", "process", "seed", "addressing")
+KEYS = ("map", "model", "unit", "given", "base", "state", "process", "seed", "addressing", "without")
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -37,6 +37,7 @@ class WantedDevice:
     process: ThermalProcess | None = None
     seed: int | None = None
     addressing: str = ""
+    without: tuple[str, ...] = ()
 
     def over(self, common: Mapping[str, Any]) -> "WantedDevice":
         """The same with the options common to all devices where a field is None or empty."""
@@ -67,9 +68,10 @@ def _wanted(entry: object, where: str) -> WantedDevice:
     given = _mapping(entry, where)
     givens, unit, seed = given.get("given") or {}, given.get("unit"), given.get("seed")
     bases = given.get("base") or {}
-    mappings = isinstance(givens, dict) and isinstance(bases, dict)
-    if not mappings or not all(isinstance(each, int | None) for each in (unit, seed)):
-        refuse(f"{where}: `given` and `base` are mappings, `unit` and `seed` are whole numbers")
+    without = given.get("without") or []
+    formed = isinstance(givens, dict) and isinstance(bases, dict) and isinstance(without, list)
+    if not formed or not all(isinstance(each, int | None) for each in (unit, seed)):
+        refuse(f"{where}: `given` and `base` are mappings, `without` is a list, `unit` and `seed` are whole numbers")
     return WantedDevice(
         map=str(given["map"]),
         model=None if given.get("model") is None else str(given["model"]),
@@ -80,6 +82,7 @@ def _wanted(entry: object, where: str) -> WantedDevice:
         process=_process(given.get("process"), where),
         seed=seed,
         addressing=str(given.get("addressing") or ""),
+        without=tuple(map(str, without)),
     )
 
 
@@ -148,6 +151,7 @@ def device_of(wanted: WantedDevice, register_map: RegisterMap) -> SimulatedDevic
             addressing=addressing,
             process=wanted.process or False,
             bases=bases,
+            without=wanted.without,
         )
     except SimulatorError as error:
         tips = (f"\nOn the command line: --given {one.id}=VALUE" for one in register_map.givens if one.id not in values)

@@ -59,6 +59,8 @@ class Declarations:
             governs=specs.governs(register),
             settle=str(register.settle) if register.settle else None,
             reading=specs.of(register.reading) if register.reading != PLAIN_READING else None,
+            static="True" if register.static else None,
+            mandatory=None if register.mandatory is None else str(register.mandatory),
             rescales=_text(register.rescales),
             block=_text(register.block),
         )

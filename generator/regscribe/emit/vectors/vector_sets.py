@@ -117,7 +117,9 @@ def _place(model: Model, register: Register) -> Json:
         found["aliases"] = [register.base.space.inside(alias) for alias in register.aliases]
     if register.default is not None:
         found["default"] = register.default if isinstance(register.default, str) else show(register.default)
-    return found
+    if register.mandatory is not None:
+        found["mandatory"] = register.mandatory
+    return found | ({"static": True} if register.static else {})
 
 
 def _content(register: Register, plan: Plan) -> Json:

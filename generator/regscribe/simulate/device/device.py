@@ -1,7 +1,7 @@
 """A simulated device: requests in, answers (or silence) out, without any line in between."""
 
 import math
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Collection, Mapping
 from pathlib import Path
 from threading import RLock
 from typing import Any
@@ -37,10 +37,11 @@ class SimulatedDevice:
     jbus for a device that counts its addresses from 1; a register that governs these or the unit id changes them. With
     a `process`, the map's process value moves as time passes (`advance`); without one it stays where it is put, and
     outputs and alarms follow it. `bases` are addresses by the ids of blocks, and of chains (their markers); where none
-    is stated, a chain begins where the device may have it, with the blocks of the map one behind the other.
+    is stated, a chain begins where the device may have it, with the blocks of the map one behind the other. It is
+    `without` some of the registers that not every device has.
     """
 
-    def __init__(
+    def __init__(  # noqa: PLR0913 (all but two are keywords)
         self,
         register_map: RegisterMap,
         model: str,
@@ -51,9 +52,10 @@ class SimulatedDevice:
         addressing: str = "modbus",
         process: ThermalProcess | bool = False,
         bases: Mapping[str, int] | None = None,
+        without: Collection[str] = (),
     ) -> None:
         self.register_map = register_map
-        self.state = DeviceState.of(register_map, _model(register_map, model), givens or {}, bases or {})
+        self.state = DeviceState.of(register_map, _model(register_map, model), givens or {}, bases or {}, without)
         self.model = self.state.blueprint.model
         self.seed = seed
         self._tuning = Tuning(self.state, unit=_unit(register_map, unit), addressing=addressing)

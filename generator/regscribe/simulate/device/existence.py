@@ -1,11 +1,16 @@
 """Whether what has a condition exists in the present state of a device."""
 
-from collections.abc import Mapping
+from collections.abc import Collection, Mapping
+from dataclasses import replace
 from fractions import Fraction
 from typing import Protocol
 
-from regscribe.model import BitField, Condition, Register
+from regscribe.model import AnyOf, BitField, Condition, Model, Register
 from regscribe.reference import Known, UnknownValueError, holds
+from regscribe.simulate.errors import SimulatorError
+
+NEVER = Condition((AnyOf(()),))
+"""The condition of what a device does not have."""
 
 
 class Present(Known, Protocol):
@@ -59,3 +64,14 @@ class _Existing:
         register, _ = self._state.find(subject)
         if not self._state.exists(register):
             raise UnknownValueError(subject)
+
+
+def leaving_out(model: Model, paths: Collection[str]) -> Model:
+    """The model of a device without these registers; SimulatorError for one that the map does not call optional."""
+    optional = [register.path for register in model.registers if register.mandatory is False]
+    if strange := next((path for path in paths if path not in optional), ""):
+        known = ", ".join(optional) or "none"
+        message = f"{model.name} is never without {strange!r}: registers with `mandatory: false` are {known}"
+        raise SimulatorError(message)
+    registers = tuple(replace(one, when=NEVER) if one.path in paths else one for one in model.registers)
+    return replace(model, registers=registers, by_path={}) if paths else model

@@ -1,6 +1,6 @@
 """The state of one simulated device: one stored value per register, shown coherently through all its views."""
 
-from collections.abc import Mapping
+from collections.abc import Collection, Mapping
 from fractions import Fraction
 from functools import reduce
 from operator import or_
@@ -20,7 +20,7 @@ from regscribe.reference import (
 )
 from regscribe.simulate.device import codec, octets
 from regscribe.simulate.device.device_plan import AddressSpan, Blueprint, Image, Stored, draw
-from regscribe.simulate.device.existence import exists
+from regscribe.simulate.device.existence import exists, leaving_out
 from regscribe.simulate.device.initial_values import initial_value
 from regscribe.simulate.device.present_meaning import PresentMeaning
 from regscribe.simulate.device.value_arguments import (
@@ -76,12 +76,14 @@ class DeviceState(PresentMeaning):
         model: Model,
         givens: Mapping[str, GivenValue],
         bases: Mapping[str, int] = MappingProxyType({}),
+        without: Collection[str] = (),
     ) -> "DeviceState":
         """The state of a new device; `bases` as in `layout_of`. SimulatorError where givens are not there."""
         known = known_givens(register_map, model, givens)
+        model = leaving_out(model, without)
         bases = stated_bases(register_map.blocks, known.numbers) | dict(bases)
         layout = layout_of(register_map, model, bases)
-        key = id(register_map), model.name, (*_key(known), *sorted(bases.items()))
+        key = id(register_map), model.name, (*_key(known), *sorted(bases.items()), *sorted(without))
         blueprint = _BLUEPRINTS.get(key)
         if blueprint is None:
             placed = located(model, layout) if layout.headers else model

@@ -11,7 +11,7 @@ from typing import Any, NamedTuple
 
 from regscribe_runtime.driver.device import AsyncBareDevice, BareDevice
 from regscribe_runtime.driver.executor import carry_out, carry_out_async
-from regscribe_runtime.errors import LinkLost, RegscribeError
+from regscribe_runtime.errors import ExceptionAnswer, LinkLost, RegscribeError
 from regscribe_runtime.link.links import AsyncLink, Link
 from regscribe_runtime.operations.locate import located
 from regscribe_runtime.operations.read import read_request
@@ -20,12 +20,16 @@ from regscribe_runtime.registers import codec
 from regscribe_runtime.registers.register import Register
 from regscribe_runtime.values.blocks import RegisterBlock
 from regscribe_runtime.values.views import View
+from regscribe_runtime.values.wire_types import WIRE
 from regscribe_runtime.wire.requests import Request, verify
 
 DRIVERS = "regscribe.drivers"
 """The group of entry points of packages with generated drivers."""
 SHIPPED = "regscribe_devices"
 """The package of the drivers that come with regscribe, and of those that `regscribe generate` writes."""
+
+MOST_TRIED = 4
+"""Of the registers that each device of a model has, those that are asked for besides what the model is known by."""
 
 Answer = tuple[int, ...] | RegscribeError
 """The words of a register, or the error in their place."""
@@ -52,10 +56,14 @@ class Evidence(NamedTuple):
 
 
 class Identification(NamedTuple):
-    """The models that fit what was read (none, one or several), with the evidence."""
+    """The models that fit what was read (none, one or several), with the evidence.
+
+    `lacking` would fit, but for a register that each of their devices has and this one refuses.
+    """
 
     models: tuple[Known, ...]
     evidence: tuple[Evidence, ...]
+    lacking: tuple[tuple[Known, Evidence], ...] = ()
 
     @property
     def certain(self) -> bool:
@@ -106,28 +114,67 @@ def identity_of(*models: Known) -> Task[Identification]:
 
 
 def _identify(models: tuple[Known, ...], unit: int) -> Operation[Identification]:
-    answers: dict[Request, Answer] = {}
-    sessions: dict[tuple[RegisterBlock, ...], Session] = {}
-    evidence: dict[tuple[Request, str], Evidence] = {}
-    fitting = []
+    asked, fitting = _Asked(unit), []
     for known in models:
         state: dict[str, Any] = {}
         for path in dict.fromkeys(chain.from_iterable(one.registers() for one in known.driver.identity)):
-            register, absent = yield from _located(known.driver.registers[path], sessions, unit, known)
-            request = read_request(register, _view(register))
-            if absent:
-                answers[request] = absent
-            elif request not in answers:
-                answers[request] = yield from _ask(request, unit, known)
-            earlier = evidence.get((request, path))
-            maps = (*(earlier.map_ids if earlier else ()), known.map_id)
-            found = _evidence(tuple(dict.fromkeys(maps)), register, request, answers[request])
-            evidence[request, path] = found
+            found = yield from asked.about(known, path)
             if found.error is None:
                 state[path] = found.value
         if any(one.fits(state) for one in known.driver.identity if set(one.registers()) <= set(state)):
             fitting.append(known)
-    return Identification(tuple(fitting), tuple(evidence.values()))
+    lacking = {}
+    for known in fitting:
+        if missed := (yield from asked.lacks(known, fitting)):
+            lacking[known] = missed
+    left = tuple(known for known in fitting if known not in lacking)
+    return Identification(left, tuple(asked.evidence.values()), tuple(lacking.items()))
+
+
+class _Asked:
+    """What one unit was asked, and what it answered; nothing is asked twice."""
+
+    def __init__(self, unit: int) -> None:
+        self.unit = unit
+        self.evidence: dict[tuple[Request, str], Evidence] = {}
+        self._answers: dict[Request, Answer] = {}
+        self._sessions: dict[tuple[RegisterBlock, ...], Session] = {}
+
+    def about(self, known: Known, path: str) -> Operation[Evidence]:
+        """What a register of a model holds."""
+        register, absent = yield from _located(known.driver.registers[path], self._sessions, self.unit, known)
+        request = read_request(register, _view(register))
+        if absent:
+            self._answers[request] = absent
+        elif request not in self._answers:
+            self._answers[request] = yield from _ask(request, self.unit, known)
+        earlier = self.evidence.get((request, path))
+        maps = (*(earlier.map_ids if earlier else ()), known.map_id)
+        found = _evidence(tuple(dict.fromkeys(maps)), register, request, self._answers[request])
+        self.evidence[request, path] = found
+        return found
+
+    def lacks(self, known: Known, others: list[Known]) -> Operation[Evidence | None]:
+        """The first refusal of a register that each device of the model has, of the few that are tried; or None."""
+        for path in _tried(known, others):
+            error = (found := (yield from self.about(known, path))).error
+            if isinstance(error, ExceptionAnswer) and error.code == known.driver.protocol.absent:
+                return found
+        return None
+
+
+def _tried(known: Known, others: list[Known]) -> list[str]:
+    """Registers that each device of the model has: those that were read already, and first of others what few have."""
+    read = {path for one in known.driver.identity for path in one.registers()}
+    found = [path for path, one in known.driver.registers.items() if one.mandatory and _is_plain(one)]
+    found.sort(key=lambda path: (path not in read, sum(path in other.driver.registers for other in others)))
+    return found[: MOST_TRIED + len(read.intersection(found))]
+
+
+def _is_plain(register: Register[Any]) -> bool:
+    """Whether one read that changes nothing tells if it is there: it has no condition, block or page."""
+    plain = register.is_read_along and register.when.always and not register.block
+    return plain and _view(register).address(register.at) <= WIRE
 
 
 def _located(

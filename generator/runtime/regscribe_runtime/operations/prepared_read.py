@@ -19,7 +19,7 @@ from regscribe_runtime.planning.read_places import place_of, read_places
 from regscribe_runtime.registers import codec
 from regscribe_runtime.registers.presence import absence
 from regscribe_runtime.registers.register import Register
-from regscribe_runtime.values.views import Readable, needs, read_view
+from regscribe_runtime.values.views import Readable, is_lasting, needs, read_view
 
 MISSING = object()
 """In place of an unknown value."""
@@ -117,9 +117,12 @@ def laid_out(
 ) -> tuple[ReadOrder, dict[str, R], dict[str, frozenset[str]]]:
     """The read order of registers and, with `fresh`, of their dependencies; all of these, and dependencies, by path.
 
-    The registers `gone` do not exist now: they are not read.
+    The registers `gone` do not exist now: they are not read. A dependency that lasts is remembered in any case.
     """
-    depends = dependencies(registers, chosen) if fresh else {}
+    depends = {
+        path: frozenset([need for need in found if not is_lasting(registers[need])])
+        for path, found in (dependencies(registers, chosen) if fresh else {}).items()
+    }
     needed = frozenset().union(*depends.values())
     wanted = {register.path: register for register in chosen}
     wanted |= {path: registers[path] for path in depends if path in needed and path not in wanted}

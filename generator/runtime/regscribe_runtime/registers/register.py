@@ -46,7 +46,8 @@ class Register(Generic[T]):
     `stays` is why the value must not be copied to another device (address, line, calibration, identity, counter,
     operation, momentary; "": it may be), `governs` what it sets of the serial line, `settle` the milliseconds after a
     write in which reading back is not reliable; `rescales` names the unit whose values the device converts. It exists
-    only while `when` holds; `reading` is how it wants to be read.
+    only while `when` holds; `reading` is how it wants to be read. `static`: it never changes by itself; `mandatory`:
+    whether each device of the model has it (None: the manual does not say).
 
     In a `block` addresses count from its base, which is not known (`origin` is None) before it is `located`;
     `reach` is the first address behind its element in an array that goes to the end of the block, else 0. `slips` are
@@ -85,6 +86,8 @@ class Register(Generic[T]):
         rescales: str = "",
         when: Condition = ALWAYS,
         reading: ReadFacts = PLAIN_READING,
+        static: bool = False,
+        mandatory: bool | None = None,
         block: str = "",
     ) -> None:
         self.at, self.views, self.value_type, self.kind = at, views, value_type, value_type.kind
@@ -97,7 +100,7 @@ class Register(Generic[T]):
         self.writable, self.persistence = writable, persistence
         self.unlock, self.apply, self.danger = unlock, apply, danger
         self.stays, self.governs, self.settle, self.rescales = stays, governs, settle, rescales
-        self.when, self.reading = when, reading
+        self.when, self.reading, self.static, self.mandatory = when, reading, static, mandatory
         self.block, self.reach = block, 0
         self.slips: tuple[Slip, ...] = ()
         self.origin: int | None = None if block else 0

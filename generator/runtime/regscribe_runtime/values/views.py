@@ -143,6 +143,9 @@ class Scaled(Protocol):
 class Readable(Placed, Scaled, Protocol):
     """A register that can be planned and decoded."""
 
+    @property
+    def static(self) -> bool: ...  # noqa: D102 (a field)
+
 
 def preferred(views: tuple[View, ...]) -> View:
     """The view that drivers use by default."""
@@ -171,6 +174,11 @@ def needs(register: Scaled, view: View) -> tuple[str, ...]:
     faults = [name for one in register.sentinels for name in one.when.registers] if register.sentinels else ()
     others = (*scale_needs(register), *faults, *_range_needs(register.valid), *registers_of(register.partial))
     return tuple(dict.fromkeys((*register.when.registers, *view.needs(), *others)))
+
+
+def is_lasting(register: Readable) -> bool:
+    """Whether its value, once read, holds for the connection: it never changes, and its meaning depends on nothing."""
+    return register.static and not needs(register, read_view(register))
 
 
 def limit_needs(register: Scaled) -> tuple[str, ...]:

@@ -63,6 +63,8 @@ EVERYTHING = Register(
     settle=5,
     when=Condition((Is("mode", ((1, 1),)),)),
     reading=ReadFacts(clears=True),
+    static=True,
+    mandatory=True,
     block="head",
     default_cases=always(Fraction(4)),
     fields=(BitField("hot", "hot", 0, 0, when=Condition((Is("mode", ((1, 1),)),))),),
