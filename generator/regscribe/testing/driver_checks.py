@@ -8,6 +8,7 @@ from regscribe.testing.compare import decoded, differs, encoded, expect_none, re
 from regscribe.testing.computed import computed, computed_of
 from regscribe.testing.simulated_read import wrong_without
 from regscribe.testing.vectors import Json, Trial, Vectors, known, number
+from regscribe_runtime.driver.parts import AnyCommand
 from regscribe_runtime.registers.register import Register
 from regscribe_runtime.values.conditions import ALWAYS
 from regscribe_runtime.values.facts import CommandStep
@@ -121,15 +122,20 @@ class DriverUnderTest:
         expect_none([*differs(self.model, "protocol", found, expected), *self._commands()])
 
     def _commands(self) -> Iterator[str]:
-        section = getattr(self.driver, "commands", None)
+        section: Any = getattr(self.driver, "commands", None)
         found = {
             name: (bool(one.danger), [_step(step) for step in one.steps])
             for name, one in (section.commands() if section else {}).items()
         }
         expected = {
-            one["id"]: (one["danger"], one["steps"]) for one in self.vectors.commands if self.model in one["models"]
+            one["id"]: (one["danger"], [_without_existence(step) for step in one["steps"]])
+            for one in self.vectors.commands
+            if self.model in one["models"]
         }
         yield from differs(self.model, "commands", found, expected)
+        for one in self.vectors.commands if section and found.keys() == expected.keys() else ():
+            if self.model in one["models"]:
+                yield from _conditions(section.commands()[one["id"]], one)
 
     def check_decoding(self) -> None:
         """Assert that the words of every vector decode to its value, its fault or its outcome."""
@@ -234,6 +240,22 @@ def _carried(function: int, sent: bytes) -> tuple[int, ...]:
         return tuple(data[place // 8] >> place % 8 & 1 for place in range(count))
     words = tuple(int.from_bytes(data[place : place + 2], "big") for place in range(0, len(data), 2))
     return tuple(int(word == ON) for word in words) if function == WRITE_COIL else words
+
+
+def _conditions(command: AnyCommand, vectors: Json) -> Iterator[str]:
+    """Yield a line for each situation in which a command, or one of its steps, is done against its vector."""
+    steps = zip(command.steps, vectors["steps"], strict=False)
+    told = [(f"step {number}", step.when, one) for number, (step, one) in enumerate(steps, start=1)]
+    for what, when, one in (("", command.when, vectors), *told):
+        where = f"command {command.id} {what}".rstrip()
+        yield from differs(where, "has a condition", not when.always, "existence" in one)
+        for vector in one.get("existence", ()):
+            state, givens = known(vector)
+            yield from differs(f"{where} with {state}", "exists", when.holds(state, givens), vector["exists"])
+
+
+def _without_existence(step: Json) -> Json:
+    return {key: value for key, value in step.items() if key != "existence"}
 
 
 def _hex(words: tuple[int, ...]) -> str:

@@ -1,12 +1,16 @@
 """Commands that exist, and steps that are done, only while a condition holds."""
 
 from collections.abc import Callable
+from pathlib import Path
 from typing import Any
 
 import pytest
 
+from regscribe.emit.vectors import document, dumps
 from regscribe.simulate.device.device import SimulatedDevice
+from regscribe.testing import DriverUnderTest, load
 from regscribe_runtime import NotPresent
+from regscribe_runtime.values.conditions import ALWAYS
 
 MAP = """
 format: 1
@@ -73,3 +77,24 @@ def test_a_device_refuses_steps_that_are_none_now(device: Any) -> None:
     assert handle(bytes([6, 0, 100, 0, 7])) == bytes([0x86, 3])
     device.link.device.poke("lock", 1)
     assert handle(bytes([6, 0, 100, 0, 7])) == bytes([6, 0, 100, 0, 7])
+
+
+def test_vectors_have_both_sides_of_each_condition(build: Callable[[str], Any], tmp_path: Path) -> None:
+    built = build(MAP)
+    path = tmp_path / "vectors.json"
+    path.write_text(dumps(document(built.map)), encoding="utf-8")
+    checked = DriverUnderTest(built.driver("A"), load(path))
+
+    checked.check_device()
+    move, start = checked.vectors.commands
+    assert {(one["state"]["mode"], one["exists"]) for one in move["existence"]} == {("0", False), ("1", True)}
+    assert {(one["state"]["lock"], one["exists"]) for one in start["steps"][0]["existence"]} == {
+        ("0", False),
+        ("1", True),
+    }
+    assert "existence" not in start
+    assert "existence" not in start["steps"][1]
+    section: Any = checked.driver.commands
+    section.commands()["move"].when = ALWAYS
+    with pytest.raises(AssertionError, match="command move: has a condition False, expected True"):
+        checked.check_device()

@@ -5,11 +5,13 @@ from typing import Any
 
 from regscribe.emit.header import FORMAT, header
 from regscribe.emit.vectors.computed import computed_values
+from regscribe.emit.vectors.content import surroundings
 from regscribe.emit.vectors.sent_values import transmissions
+from regscribe.emit.vectors.situations import both_sides
 from regscribe.emit.vectors.test_module import module_text
 from regscribe.emit.vectors.vector_sets import once_for_models, vector_sets
 from regscribe.emit.vectors.worked import worked_examples
-from regscribe.model import Command, CommandStep, Given, Protocol, RegisterMap
+from regscribe.model import Command, CommandStep, Condition, Given, Model, Protocol, RegisterMap
 from regscribe.model.identifiers import module_names
 
 Json = dict[str, Any]
@@ -43,7 +45,11 @@ def dumps(value: Any, indent: int = 0) -> str:  # noqa: ANN401 (any JSON value)
 
 def document(register_map: RegisterMap) -> Json:
     """Return the vectors of a map as JSON values; `schema/vectors.schema.json` documents each key."""
-    commands = ((model.name, _command(command)) for model in register_map.models for command in model.commands)
+    commands = (
+        (model.name, _command(register_map, model, command))
+        for model in register_map.models
+        for command in model.commands
+    )
     return {
         "$schema": f"../../../schema/{SCHEMA}",
         "generated": header(register_map),
@@ -81,8 +87,16 @@ def _protocol(protocol: Protocol) -> Json:
     }
 
 
-def _command(command: Command) -> Json:
-    return {"id": command.id, "danger": bool(command.danger), "steps": [_step(step) for step in command.steps]}
+def _command(register_map: RegisterMap, model: Model, command: Command) -> Json:
+    steps = [_step(step) | _existence(register_map, model, step.when) for step in command.steps]
+    exists = _existence(register_map, model, command.when)
+    return {"id": command.id, "danger": bool(command.danger), **exists, "steps": steps}
+
+
+def _existence(register_map: RegisterMap, model: Model, when: Condition) -> Json:
+    """Return both sides of the condition of a command or a step; nothing where it has none."""
+    sides = both_sides(register_map, model, when)
+    return {"existence": [surroundings(one) | {"exists": exists} for one, exists in sides]} if sides else {}
 
 
 def _step(step: CommandStep) -> Json:

@@ -107,7 +107,12 @@ def existence_situations(
     register_map: RegisterMap, model: Model, register: Register
 ) -> tuple[tuple[Situation, bool], ...]:
     """Return one situation for each code that decides whether a register exists, and whether it does."""
-    return () if register.when.always else _both_sides(register_map, model, register.when)
+    return both_sides(register_map, model, register.when)
+
+
+def both_sides(register_map: RegisterMap, model: Model, condition: Condition) -> tuple[tuple[Situation, bool], ...]:
+    """Return one situation for each code that decides whether a condition holds, and whether it does."""
+    return () if condition.always else _both_sides(register_map, model, condition)
 
 
 def _both_sides(register_map: RegisterMap, model: Model, condition: Condition) -> tuple[tuple[Situation, bool], ...]:
