@@ -388,15 +388,6 @@ def _placed(draw: Draw, deciders: list[Json], registers: list[Json]) -> list[Jso
     return rows if inside else deciders + rows
 
 
-def steady(node: Any) -> Any:
-    """Registers of which each exists always, at one address."""
-    if isinstance(node, list):
-        return [steady(one) for one in node]
-    more = {"repeat": "1..2"} if isinstance(node.get("repeat"), dict) else {}
-    inner = {key: steady(node[key]) for key in node.keys() & {"registers"}}
-    return {key: value for key, value in node.items() if key not in {"when", "aliases"}} | inner | more
-
-
 @st.composite
 def maps(draw: Draw) -> Json:
     """The parts of a map as `suite.whole_map` completes them; many are sound, the others are refused by a rule."""
