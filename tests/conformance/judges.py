@@ -3,7 +3,7 @@
 import math
 import re
 import struct
-from collections.abc import Iterator, Mapping
+from collections.abc import Callable, Iterator, Mapping
 from datetime import date, datetime, time
 from decimal import Decimal
 from fractions import Fraction
@@ -35,7 +35,7 @@ from regscribe_runtime import NotPresent, OutOfRange, SensorFault, ValueNotDecod
 from regscribe_runtime.registers.octets import OctetType
 from regscribe_runtime.wire.capture import CapturedFrame
 
-from .suite import Built, Json, words_of
+from .suite import Built, Json, address_of, words_of
 from .wire import LONG
 
 READ_FUNCTIONS = {
@@ -348,7 +348,7 @@ def simulated(built: Built, held: Mapping[str, Mapping[int, str]]) -> SimulatedD
     device = SimulatedDevice(built.map, "A", unit=1)
     for space, cells in held.items():
         for address, text in cells.items():
-            prime(device, space, int(address), words_of(text))
+            prime(device, space, address_of(address), words_of(text))
     return device
 
 
@@ -364,18 +364,18 @@ def prime(device: SimulatedDevice, space: str, address: int, words: list[int]) -
                 return
 
 
-def ask(device: SimulatedDevice, register: Register, view: View) -> list[int]:
-    """The words that a simulated device answers at a view."""
+def ask(device: SimulatedDevice, register: Register, view: View, unit: int = 1) -> list[int]:
+    """The words that a simulated device answers at a view, as this unit."""
     function = READ_FUNCTIONS[view.space.value]
     if function == 7:
         return [device.handle(b"\x07")[1]]  # type: ignore[index] # it answers
     address, most = view.address(register.at), device.register_map.protocol.most_read(view.space)
     portions = [(address + start, min(most, view.words - start)) for start in range(0, view.words, most)]
-    return [word for portion in portions for word in _answered(device, function, view, *portion)]
+    return [word for portion in portions for word in _answered(device, unit, function, view, *portion)]
 
 
-def _answered(device: SimulatedDevice, function: int, view: View, address: int, count: int) -> list[int]:
-    answer = device.handle(_asked(function, address, count))
+def _answered(device: SimulatedDevice, unit: int, function: int, view: View, *portion: int) -> list[int]:
+    answer, address = device.handle(_asked(function, *portion), unit=unit), portion[0]
     assert answer is not None
     assert answer[0] == function, answer.hex(" ")
     if function in (1, 2):
@@ -396,20 +396,29 @@ def _asked(function: int, address: int, count: int) -> bytes:
         return struct.pack(">BH", 24, address >> 6)
     if address >= LONG:
         address, count = (address - LONG) // 2, count // 2
-    return struct.pack(">BHH", function, address, count)
+    return struct.pack(">BHH", function, address & 0xFFFF, count)
 
 
-def decoded_by_tool(built: Built, memory: Any, row: Json) -> str:
-    """What `decode` prints of a value in a captured answer, after it saw what the value depends on."""
+def decoded_by_tool(
+    built: Built, memory: Any, row: Json, selecting: Callable[[int], tuple[int, list[bytes]]] = lambda _: (1, [])
+) -> str:
+    """What `decode` prints of a value in a captured answer, after it saw what the value depends on.
+
+    `selecting` tells the unit that answers at an address, and what was written before to select its page.
+    """
     driver = built.module.CaseA
     decoder = Decoder(driver, bases=built.bases)
     text = ""
     for register, view in [*_others(built, memory, row), register_of(built, row)]:
         own = register.path == row["register"]
         words = words_of(row["words"]) if own else memory.get(view.space.value, view.address(register.at), view.words)
+        unit, selected = selecting(view.address(register.at))
+        for pdu in selected:
+            decoder.feed(CapturedFrame("tcp", 1, pdu, pdu), "sent")
+            decoder.feed(CapturedFrame("tcp", 1, pdu[:5], pdu[:5]), "received")
         request, answer = _frames(register, view, words)
-        decoder.feed(CapturedFrame("tcp", 1, request, request), "sent")
-        for item in decoder.feed(CapturedFrame("tcp", 1, answer, answer), "received").items:
+        decoder.feed(CapturedFrame("tcp", unit, request, request), "sent")
+        for item in decoder.feed(CapturedFrame("tcp", unit, answer, answer), "received").items:
             if (item.name, item.view) == (register.path, view.name):
                 text = f"problem: {item.problem}" if item.problem else item.text
     return text

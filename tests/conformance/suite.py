@@ -2,6 +2,7 @@
 
 import importlib.util
 import itertools
+import struct
 from collections.abc import Iterator, Mapping
 from dataclasses import replace
 from decimal import Decimal
@@ -17,8 +18,10 @@ from regscribe.model import Diagnostic, RegisterMap, Severity
 from regscribe.model.located import layout_of, located
 
 from .places import places_of
+from .wire import LONG, ON, Memory
 
 FOLDER = Path(__file__).parent / "cases"
+PAGE_BITS = 16
 FUNCTIONS = [1, 2, 3, 4, 5, 6, 7, 15, 16, 20, 21, 24, 43]
 Json = dict[str, Any]
 
@@ -34,6 +37,8 @@ class Case(NamedTuple):
     rows: tuple[Json, ...]
     refused: str
     place: str
+    paged: int = 0x10000
+    pages: tuple[Json, ...] = ()
 
     def __repr__(self) -> str:
         return self.name
@@ -42,6 +47,45 @@ class Case(NamedTuple):
     def long(self) -> range:
         """The addresses of registers of 32 bits: all or none."""
         return range(0x10000 if "enron" in str(self.map) else 0)
+
+    def prepare(self, memory: Memory, *holds: Mapping[str, Mapping[int, str]]) -> None:
+        """Let a device of nothing but words hold what the case says, and more."""
+        memory.clear()
+        memory.long, memory.paged = self.long, self.paged
+        memory.pages = tuple(
+            page if "unit" in page else {space: _words(cells) for space, cells in page.items()} for page in self.pages
+        )
+        for held in (self.holds, *holds):
+            for space, cells in held.items():
+                for address, words in _words(cells).items():
+                    memory.put(space, address, words)
+
+    def selecting(self, address: int) -> tuple[int, list[bytes]]:
+        """The unit id of the page of an address (1: that of the device), and the requests that select the page."""
+        number = address >> PAGE_BITS if address < LONG else 0
+        page = self.pages[number - 1] if 0 < number <= len(self.pages) else {}
+        if "unit" in page:
+            return page["unit"], []
+        cells = [(space, at, words) for space, held in page.items() for at, words in _words(held).items()]
+        return 1, [_selects(*cell) for cell in cells]
+
+
+def _selects(space: str, at: int, words: list[int]) -> bytes:
+    """The request that writes what selects a page."""
+    if space == "coil":
+        return struct.pack(">BHH", 5, at, ON * words[0])
+    return struct.pack(f">BHHB{len(words)}H", 16, at, len(words), 2 * len(words), *words)
+
+
+def _words(cells: Mapping[Any, str]) -> dict[int, list[int]]:
+    """Words by address, on page 2 spelled `2/10`."""
+    return {address_of(key): words_of(text) for key, text in cells.items()}
+
+
+def address_of(key: Any) -> int:
+    """An address of `holds`, with the number of its page above it."""
+    page, _, at = str(key).rpartition("/")
+    return int(page or 0) << PAGE_BITS | int(at)
 
 
 class Built(NamedTuple):
@@ -78,7 +122,16 @@ def cases() -> Iterator[Case]:
 
 def _case(stem: str, one: Json, place: str) -> Case:
     name = f"{stem}: {one['name']}{place and f' ({place})'}"
-    return Case(name, one["map"], one.get("holds", {}), tuple(one.get("rows", ())), one.get("refused", ""), place)
+    return Case(
+        name,
+        one["map"],
+        one.get("holds", {}),
+        tuple(one.get("rows", ())),
+        one.get("refused", ""),
+        place,
+        one.get("paged", 0x10000),
+        tuple(one.get("pages", ())),
+    )
 
 
 def words_of(text: str) -> list[int]:

@@ -2,6 +2,7 @@
 
 import asyncio
 import json
+import struct
 from collections.abc import Iterator
 from typing import Any
 
@@ -37,12 +38,7 @@ def _built(case: Case) -> Built:
 
 
 def _prepare(memory: Memory, case: Case, row: Json) -> None:
-    memory.clear()
-    memory.long = case.long
-    for held in (case.holds, row.get("holds", {})):
-        for space, cells in held.items():
-            for address, text in cells.items():
-                memory.put(space, int(address), words_of(text))
+    case.prepare(memory, row.get("holds", {}))
 
 
 def _reads(case: Case) -> list[Json]:
@@ -106,7 +102,7 @@ def _written_wrong(case: Case, built: Built, row: Json, server: Server, link: An
     _prepare(server.memory, case, row)
     bound = judges.attribute(built.module.CaseA(link, unit=1), row["register"])
     value = judges.value_for(built, row)
-    how = {"view": row.get("view"), "rounded": row.get("rounded", False), "verify": False}
+    how = {"view": row.get("view"), "rounded": row.get("rounded", False), "verify": bool(case.pages)}
     place = (view.space.value, view.address(register.at), view.words)
     found = judges.written(lambda: bound.write(value, **how), server.memory, *place)
     if found != _words(row):
@@ -141,7 +137,7 @@ async def _over(link: Any, case: Case, built: Built, server: Server) -> list[str
         place = judges.register_of(built, row, writes=True)
         _prepare(server.memory, case, row)
         bound = judges.attribute(built.module.AsyncCaseA(link, unit=1), row["register"])
-        found = await _write(bound, judges.value_for(built, row), row, server.memory, place)
+        found = await _write(bound, judges.value_for(built, row), row, server.memory, place, verify=bool(case.pages))
         wrong += [] if found == _words(row) else [f"{row}: wrote {found!r}"]
     return wrong
 
@@ -154,9 +150,9 @@ async def _read(bound: Any, row: Json) -> object:
     return judges.said_by_driver(value)
 
 
-async def _write(bound: Any, value: Any, row: Json, memory: Memory, place: Any) -> object:
+async def _write(bound: Any, value: Any, row: Json, memory: Memory, place: Any, *, verify: bool) -> object:
     try:
-        await bound.write(value, view=row.get("view"), rounded=row.get("rounded", False), verify=False)
+        await bound.write(value, view=row.get("view"), rounded=row.get("rounded", False), verify=verify)
     except judges.UNSENT:
         return judges.REFUSED if not any(pdu[0] in {5, 6, 15, 16} for pdu in memory.log) else "refused too late"
     register, view = place
@@ -202,7 +198,7 @@ def test_a_simulated_device_sends_and_takes_what_the_case_says(case: Case) -> No
             continue
         device = judges.simulated(built, _held(case, row))
         device.poke(register.path, plain)
-        found = judges.ask(device, register, view)
+        found = _asked(case, device, register, view)
         wrong += [] if found == words_of(row["words"]) else [f"{row}: a device with {plain!r} sends {found}"]
     for row in _reads(case):
         if {"fault", "no_value", "shows"} & set(row) or row.get("lossy"):
@@ -210,7 +206,7 @@ def test_a_simulated_device_sends_and_takes_what_the_case_says(case: Case) -> No
         register, view = judges.register_of(built, row)
         device = judges.simulated(built, _held(case, row))
         judges.prime(device, view.space.value, view.address(register.at), words_of(row["words"]))
-        found = judges.ask(device, register, view)
+        found = _asked(case, device, register, view)
         wrong += [] if found == words_of(row["words"]) else [f"{row}: the words come back as {found}"]
     _report(wrong)
 
@@ -220,9 +216,26 @@ def _shown_wrong(case: Case, built: Built, row: Json) -> Iterator[str]:
     register, view = judges.register_of(built, row)
     device, base = judges.simulated(built, _held(case, row)), register.base
     judges.prime(device, base.space.value, register.address, words_of(row["shows"]))
-    found = judges.ask(device, register, view)
+    found = _asked(case, device, register, view)
     if found != words_of(row["words"]):
         yield f"{row}: shown as {found}"
+
+
+def _asked(case: Case, device: Any, register: Any, view: Any) -> list[int]:
+    """The words of a view, on the page where it stands."""
+    unit, requests = case.selecting(view.address(register.at))
+    if 23 in view.functions:
+        return _selected_and_asked(device, view.address(register.at) & 0xFFFF, view.words, requests)
+    for request in requests:
+        device.handle(request, unit=1)
+    return judges.ask(device, register, view, unit=unit)
+
+
+def _selected_and_asked(device: Any, address: int, count: int, requests: list[bytes]) -> list[int]:
+    """The words of the answer to function 23, which writes what the requests write, and reads."""
+    data = b"".join(request[6:] for request in requests)
+    head = struct.pack(">BHH2sHB", 23, address, count, requests[0][1:3], len(data) // 2, len(data))
+    return words_of(device.handle(head + data)[2:].hex())
 
 
 def _held(case: Case, row: Json) -> Json:
@@ -249,7 +262,7 @@ def test_a_captured_answer_is_decoded_as_the_case_says(case: Case) -> None:
     wrong: list[str] = []
     for row in _reads(case):
         _prepare(memory, case, row)
-        found = judges.decoded_by_tool(built, memory, row)
+        found = judges.decoded_by_tool(built, memory, row, case.selecting)
         sound = not {"fault", "no_value"} & set(row)
         if found.startswith("problem") is sound or (sound and found.partition(", rest=")[0] != _text(built, row)):
             wrong.append(f"{row}: decoded as {found!r}")

@@ -22,7 +22,7 @@ from regscribe_runtime.operations.prepared_read import dependencies
 
 from .matrix_watch import Wire
 from .strategies import FUZZ, STEADY, maps
-from .suite import FUNCTIONS, Built, Case, Json, build, cases, diagnose, errors_of, module_of, whole_map, words_of
+from .suite import FUNCTIONS, Built, Case, Json, build, cases, diagnose, errors_of, module_of, whole_map
 from .trial import Trial
 from .wire import Memory, Server
 
@@ -209,11 +209,7 @@ def path(tmp_path_factory: pytest.TempPathFactory) -> Path:
 def test_the_plan_of_a_case_is_what_its_driver_sends(case: Case, server: Server, path: Path) -> None:
     device = build(whole_map(case.map)).module.CaseA
     chance = random.Random(case.name)  # noqa: S311 (found again by its name)
-    server.memory.clear()
-    server.memory.long = case.long
-    for space, cells in case.holds.items():
-        for address, held in cells.items():
-            server.memory.put(space, int(address), words_of(held))
+    case.prepare(server.memory)
 
     with bench(path, case.map, device, server) as made:
         questions = [chance.choice(everything(device)), of_ids(device, chance)]

@@ -4,18 +4,24 @@ import socketserver
 import struct
 import threading
 from collections import defaultdict
+from collections.abc import Mapping
+from typing import Any
 
 READS = {1: "coil", 2: "discrete", 3: "holding", 4: "input", 23: "holding"}
 WRITES = {5: "coil", 6: "holding", 15: "coil", 16: "holding"}
 BITS = frozenset({"coil", "discrete"})
 ON = 0xFF00
 LONG = 1 << 40
+PAGE = 16
+"""The bits of an address below the number of its page."""
 
 
 class Memory:
     """What the addresses of each space hold (0 where nothing was put), and the requests that came: PDUs in order.
 
     At addresses that are `long` a register has 32 bits, of space `enron`: two words, from LONG + twice the address on.
+    Addresses from `paged` on are those of the page that is selected: the first of `pages` whose words the device holds
+    (by space and address). A page with a `unit` is what the device of that unit id has.
     """
 
     def __init__(self) -> None:
@@ -26,6 +32,8 @@ class Memory:
         self.cells: dict[str, dict[int, int]] = defaultdict(dict)
         self.log: list[bytes] = []
         self.long: range | set[int] = range(0)
+        self.paged = 0x10000
+        self.pages: tuple[Any, ...] = ()
 
     def put(self, space: str, address: int, words: list[int]) -> None:
         """Set words (or bits) from an address on."""
@@ -37,7 +45,20 @@ class Memory:
         start = _inside(space, address)
         return [self.cells[space].get(at, 0) for at in range(start, start + count)]
 
-    def answer(self, pdu: bytes) -> bytes:
+    def page(self, address: int, unit: int) -> int:
+        """An address on the page that it means now; -1 if no page is selected that could have it."""
+        behind = [number for number, page in enumerate(self.pages, 1) if page.get("unit") == unit]
+        if not behind and address < self.paged:
+            return address
+        shown = [number for number, page in enumerate(self.pages, 1) if "unit" not in page and self._holds(page)]
+        found = [*behind, *shown]
+        return found[0] << PAGE | address if found else -1
+
+    def _holds(self, page: Mapping[str, Mapping[int, list[int]]]) -> bool:
+        every = [(space, at, words) for space, cells in page.items() for at, words in cells.items()]
+        return all(self.get(space, at, len(words)) == words for space, at, words in every)
+
+    def answer(self, pdu: bytes, unit: int = 0) -> bytes:  # noqa: PLR0911 (as many kinds of answers)
         """The answer to a request."""
         self.log.append(pdu)
         function = pdu[0]
@@ -49,7 +70,11 @@ class Memory:
             return special(pdu)
         address, number = struct.unpack(">HH", pdu[1:5])
         if function == 23:
-            self.put("holding", int.from_bytes(pdu[5:7], "big"), list(struct.unpack(f">{pdu[9] // 2}H", pdu[10:])))
+            into = self.page(int.from_bytes(pdu[5:7], "big"), unit)
+            self.put("holding", into, list(struct.unpack(f">{pdu[9] // 2}H", pdu[10:])))
+        address = self.page(address, unit)
+        if address < 0:
+            return bytes([function | 0x80, 2])
         if function in READS:
             found = self.get(READS[function], address, number)
             packed = _packed(found) if READS[function] in BITS else struct.pack(f">{number}H", *found)
@@ -115,7 +140,7 @@ class _Handler(socketserver.StreamRequestHandler):
     def handle(self) -> None:
         while head := self.rfile.read(7):
             pdu = self.rfile.read(int.from_bytes(head[4:6], "big") - 1)
-            answer = self.server.memory.answer(pdu)  # type: ignore[attr-defined] # set below
+            answer = self.server.memory.answer(pdu, head[6])  # type: ignore[attr-defined] # set below
             self.wfile.write(head[:4] + (len(answer) + 1).to_bytes(2, "big") + head[6:7] + answer)
 
 

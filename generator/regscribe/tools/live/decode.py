@@ -89,6 +89,7 @@ class Decoder:
         self.driver, self.first = driver, first
         self._givens, self._initial = {**defaults(driver), **(givens or {})}, dict(state or {})
         self._states: defaultdict[int, dict[str, Any]] = defaultdict(self._initial.copy)
+        self._behind = {page.unit for page in driver._pages if page.unit}  # noqa: SLF001 (its facts)
         self._pending: dict[int, Request] = {}
         """The request that waits for its answer, by its unit."""
         known = stated_bases(driver._blocks, self._givens) | dict(bases or {})  # noqa: SLF001 (its facts)
@@ -177,9 +178,13 @@ class Decoder:
         named = f" (command {' or '.join(commands)})" if commands else ""
         return f"{'write' if request.function in WRITES else 'read'} {where}{named}"
 
+    def _state(self, unit: int) -> dict[str, Any]:
+        """The values of the device that has a unit id; with units behind it, the line has no other of its kind."""
+        return self._states[0 if self._behind else unit]
+
     def _learn(self, unit: int, request: Request, words: tuple[int, ...]) -> None:
         """Keep the values of registers; decoded twice, since the values of some decide those of others."""
-        state = self._states[unit]
+        state = self._state(unit)
         self._places[unit].saw(request.space or "", request.address, words)
         for register, view, part in list(self._registers(unit, request, words)) * 2:
             try:
@@ -202,14 +207,14 @@ class Decoder:
     def _exists(self, unit: int, register: Register[Any]) -> bool:
         """Whether a register is known to exist, so that no other one at its address does."""
         with suppress(KeyError, RegscribeError):
-            register.check_present(self._states[unit], self._givens)
+            register.check_present(self._state(unit), self._givens)
             return True
         return False
 
     def _decode(
         self, item: DecodedItem, unit: int, register: Register[Any], view: View, words: tuple[int, ...]
     ) -> DecodedItem:
-        state, item = self._states[unit], item._replace(words=words)
+        state, item = self._state(unit), item._replace(words=words)
         digits = " ".join(f"{word:04X}" for word in words)
         if len(words) < view.words:
             return item._replace(problem=f"{len(words)} of {view.words} words: {digits}")

@@ -22,6 +22,7 @@ class RegisterPlaces:
         self._blocks: dict[str, RegisterBlock] = {one.id: one for one in driver._blocks}  # noqa: SLF001 (its facts)
         self._headers = {name: Header(0, base) for name, base in bases.items()}
         self._pages, self._page = driver._pages, 0  # noqa: SLF001 (as above)
+        self._written: dict[tuple[str, int], int] = {}
         self._counters = {path for one in self._registers for path in one.counters}
         self._counts: dict[str, Any] = {}
         self._seen: dict[tuple[str, int], int] = {}
@@ -36,13 +37,16 @@ class RegisterPlaces:
         return behind or self._index.get((space, address), [])
 
     def wrote(self, space: str, address: int, words: Sequence[int]) -> None:
-        """Learn which page was selected."""
-        for number, steps in enumerate(self._pages, start=1):
-            for step in steps.steps:
-                start = step.address - address
-                if step.space == space and 0 <= start < len(words):
-                    held = tuple(words[start : start + len(step.words)]) == step.words
-                    self._page = number if held else self._page * (self._page != number)
+        """Learn which page is selected: the first whose steps were all written, and nothing else there since."""
+        if not self._pages:
+            return
+        self._written |= {(space, address + place): word for place, word in enumerate(words)}
+        shown = [number for number, page in enumerate(self._pages, start=1) if page.steps and self._shows(page.steps)]
+        self._page = next(iter(shown), 0)
+
+    def _shows(self, steps: Sequence[CommandStep]) -> bool:
+        cells = ((one.space, one.address + place, word) for one in steps for place, word in enumerate(one.words))
+        return all(self._written.get((space, at)) == word for space, at, word in cells)
 
     def placed(self, step: CommandStep) -> CommandStep:
         """A step of a command with the address that it has on this unit."""
