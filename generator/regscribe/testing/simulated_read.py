@@ -15,7 +15,7 @@ from regscribe_runtime.planning.read_places import ReadPlace, read_places
 from regscribe_runtime.registers.register import Register
 from regscribe_runtime.values.blocks import RegisterBlock, headers_in, lay_out
 from regscribe_runtime.values.kinds import Kind
-from regscribe_runtime.values.wire_types import Space
+from regscribe_runtime.values.wire_types import PAGE_BITS, Space
 from regscribe_runtime.wire.requests import Reply, Request
 
 Cell = tuple[str, int]
@@ -26,7 +26,7 @@ TEXTUAL = frozenset({Kind.STRING, Kind.VERSION})
 
 
 class ReadTrace(NamedTuple):
-    """The requests that a read made, what it returned, and its session."""
+    """The requests that a read made (their addresses with the number of their page), what it returned, its session."""
 
     requests: tuple[Request, ...]
     snapshot: Snapshot
@@ -56,8 +56,12 @@ def read_through(
             if isinstance(asked, Pause):  # between requests, where the device needs time
                 asked = operation.send(None)
                 continue
-            requests.append(asked)
+            if not asked.fetches:  # it selects a page
+                asked = operation.send(Reply(asked.function, asked.words, asked.address, len(asked.words)))
+                continue
             space = asked.space or Space.HOLDING
+            asked = asked._replace(address=asked.page << PAGE_BITS | asked.address)
+            requests.append(asked)
             asked_for = [(space, asked.address + offset) for offset in range(asked.quantity)]
             words = tuple(word_at(*cell, seed) for cell in asked_for)
             refused = driver.protocol.absent if any(cell in gone for cell in asked_for) else None
@@ -87,6 +91,7 @@ def _session(driver: Any) -> Session:  # noqa: ANN401 (as above)
         commands={},
         givens=givens_of(driver) | {block.given: headers[block.id].base for block in blocks if block.given},
         unused=unused_of(driver),
+        pages=driver._pages,  # noqa: SLF001 (as above)
         blocks=blocks,
     )
     slips = (slip for register in driver.registers.values() for slip in register.slips)
