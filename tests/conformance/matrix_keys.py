@@ -84,6 +84,11 @@ SETTLED = frozenset(
         "step_argument",
         "argument",
         "repeat",
+        "decimals_case",
+        "governing",
+        "text_details",
+        "unused",
+        "erratum",
     )
 )
 """Objects of which each key was tried, and is what is said here; of the others each key has a specimen."""
@@ -129,6 +134,10 @@ FOR_READERS = frozenset(
         "command.description",
         "command.source",
         "argument.description",
+        "erratum.where",
+        "erratum.printed",
+        "erratum.read",
+        "erratum.why",
     )
 )
 """Keys by which nobody does anything else: they are said in the docs."""
