@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from abc import abstractmethod
 from collections.abc import Mapping
 from typing import Any, NoReturn, Protocol
 
@@ -25,6 +26,7 @@ class Computable(Protocol):
     when: Condition
 
     @property
+    @abstractmethod
     def needs(self) -> tuple[str, ...]:
         """The paths of the registers that it follows from."""
 
