@@ -49,6 +49,7 @@ SETTLED = frozenset(
         "default_case",
         "own_unit_case",
         "unit_case",
+        "unit_symbol",
         "enum",
         "order_case",
         "set",

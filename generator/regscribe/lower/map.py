@@ -18,7 +18,7 @@ from regscribe.lower.scales import rule_at, scale_at
 from regscribe.lower.scope import Scope
 from regscribe.lower.subject import subject_of
 from regscribe.lower.texts import ends, known_name
-from regscribe.lower.units import own_units, unit_at
+from regscribe.lower.units import own_units, unit_at, unit_notes
 from regscribe.lower.variants import Keys, named_models
 from regscribe.lower.views import set_at
 from regscribe.model import (
@@ -79,6 +79,7 @@ def map_of(root: Value) -> RegisterMap:
         waivers=tuple(map(_waiver, root.elements_of("waivers"))),
         notes=root.texts_of("notes"),
         unit_symbols=own_units(root),
+        unit_notes=unit_notes(root),
         span=about.mapping_of("id").span,
     )
 

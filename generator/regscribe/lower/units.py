@@ -18,6 +18,12 @@ def own_units(root: Value) -> tuple[str, ...]:
     return tuple(name for name, node in root.items_of("units") if not node.is_list)
 
 
+def unit_notes(root: Value) -> tuple[tuple[str, str], ...]:
+    """What plain unit symbols stand for, as far as the map says."""
+    every = ((name, node.line_of("description")) for name, node in root.items_of("units") if not node.is_list)
+    return tuple((name, text) for name, text in every if text)
+
+
 def unit_of(node: Value | None, scope: Scope) -> tuple[Cases[str], str]:
     """The unit symbol by case, and the id where the map names a unit with cases; RS0311 for an unknown one."""
     if node is None:

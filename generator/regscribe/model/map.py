@@ -303,6 +303,7 @@ class RegisterMap:
     `alike`: function codes that do the same (2 reads coils as 1 does); registers stand in the space of one of them.
     `accepts`: limits of the protocol that the device goes beyond, by another passage of its manual; a driver keeps to
     the limits.
+    `unit_symbols` are those that the map declares, `unit_notes` what some of them stand for.
     `content_hash` is the SHA-256 in hex of the file's bytes, or of the hashes of all files where there are several.
     `libraries` are those of `uses`, `shipped` the ids of all its files that come with regscribe, as do the modules of
     such libraries. These two let drivers share enums. They are no facts about the devices, so exports leave them out.
@@ -334,6 +335,7 @@ class RegisterMap:
     waivers: tuple[Waiver, ...] = ()
     notes: tuple[str, ...] = ()
     unit_symbols: tuple[str, ...] = ()
+    unit_notes: tuple[tuple[str, str], ...] = ()
     extends: str = ""
     uses: tuple[str, ...] = ()
     overrides: tuple[Override, ...] = ()

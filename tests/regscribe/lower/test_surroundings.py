@@ -98,6 +98,7 @@ def test_the_tables_about_the_manual_are_carried_over(lowered: Lowered) -> None:
     assert found.notations == (Notation("absolute", Space.HOLDING, 40001),)
     assert (found.givens[0].id, found.givens[0].kind, found.givens[0].register) == ("linear", GivenKind.CODES, "kind")
     assert found.unit_symbols == ("lamps",)
+    assert found.unit_notes == (("lamps", "How many."),)
     assert found.reserved == ((Space.HOLDING, 77, 79), (Space.INPUT, 5, 5))
     assert found.identity[0].models == ("B-2",)
     assert found.identity[0].identity.when.tests[0].codes[0][0] == 1

@@ -108,6 +108,11 @@ def units(context: PageContext) -> PageTable:
     return table(("Unit", "When", "Symbol"), rows)
 
 
+def unit_notes(context: PageContext) -> PageTable:
+    """Return what unit symbols of the map stand for."""
+    return table(("Unit", "What it stands for"), ((code(name), prose(text)) for name, text in context.map.unit_notes))
+
+
 def givens(context: PageContext) -> PageTable:
     """Return the arguments that the user of a driver must give, with their reasons."""
     rows = (
