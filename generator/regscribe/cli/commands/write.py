@@ -11,6 +11,7 @@ from regscribe.cli.shared.long_work import shielded
 from regscribe.cli.shared.output import print_json, remark, show_table
 from regscribe.cli.shared.target_options import HELP, confirm_option, identity_option, opened, target_options
 from regscribe.tools.live import names, value_text
+from regscribe.tools.live.changed_parts import change_parts, names_parts
 from regscribe.tools.live.dry_run import dry
 from regscribe.tools.live.errors import TargetError, unknown
 from regscribe.tools.live.reading import held_of
@@ -21,7 +22,8 @@ from regscribe_runtime.operations import tasks
 
 @click.command(
     help=f"""Write one register: a number (150.5, or with its unit "150.5 °F", which must be the device's own), a member
-of an enum by name, label or code, flags as names with commas.\n\n{HELP}""",
+of an enum by name, label or code. Of a word of flags or fields those that are named are changed, the others stay as
+they are: `HEATER,FAN=off`, `mode=2,limit=3` (a number is the whole word, `none` clears all flags).\n\n{HELP}""",
     epilog='Example: regscribe write oven setpoint "150.5 °F"\n\n'
     "Exit code 0: written, or held already, 1: refused (by range, access, condition, the device, or for want of "
     "--confirm), 2: wrong usage, 3: nobody answers, 4: it broke off and what the device holds is unknown.",
@@ -58,8 +60,9 @@ def command(  # noqa: PLR0913 - the options of the command
     with opened(target, identity=identity, check=find) as device, shielded() as shield:
         register = find(type(device))
         unit = device.run(tasks.read_unit(register))
-        meant = value_text.parse(register, value, current_unit=unit)
-        if rounded:
+        parts = names_parts(register, value)
+        meant = None if parts else value_text.parse(register, value, current_unit=unit)
+        if rounded and not parts:
             meant = device.run(held_of(register, meant, view))
         unsent: Unsent | None
         if dry_run and register.governs is not None:
@@ -67,7 +70,10 @@ def command(  # noqa: PLR0913 - the options of the command
             unsent = planned.requests
         else:
             unsent, verify = (dry(device).written, None) if dry_run else (None, verify)
-            device.run(tasks.write(register, meant, view=view, rounded=rounded, confirm=confirm, verify=verify))
+            if parts:
+                meant = device.run(change_parts(register, value, view=view, confirm=confirm, verify=verify))
+            else:
+                device.run(tasks.write(register, meant, view=view, rounded=rounded, confirm=confirm, verify=verify))
         spared = device.session.wear.spared > 0
     if as_json:
         written = {"value": value_text.show(register, meant), "unit": unit, "written": not (dry_run or spared)}

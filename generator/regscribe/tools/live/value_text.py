@@ -29,13 +29,14 @@ Plain = str | int | float | bool | list[str]
 """A value without Python's types: numbers, members and special values by name, the names of set flags."""
 
 _NUMBER = re.compile(r"[+-]?(?:[0-9]+(?:\.[0-9]*)?|\.[0-9]+)(?:[eE][+-]?[0-9]{1,3})?")
-_WHOLE = re.compile(r"[+-]?(?:0[xX][0-9A-Fa-f]{1,16}|[0-9]{1,20})")
+_WHOLE = re.compile(r"[+-]?(?:0[xX][0-9A-Fa-f]{1,500}|[0-9]{1,603})")
+"""A whole number in as many digits as the bits of 125 words have."""
 _MORE_DIGITS = re.compile(r"[0-9_.,'xX]|\s[\s0-9_.,']*$")
 """What behind a number is more of it (1_000, 1e5000, 0x and too many digits, 1 000) and no unit."""
 MOST_EXACT = 2.0**53
 """Up to here a float tells whole numbers apart."""
 _UNITS = {"degc": "°C", "degf": "°F", "c": "°C", "f": "°F", "℃": "°C", "℉": "°F", "k": "K", "percent": "%"}
-_TRUE, _FALSE = frozenset({"true", "on", "yes", "1"}), frozenset({"false", "off", "no", "0"})
+TRUE, FALSE = frozenset({"true", "on", "yes", "1"}), frozenset({"false", "off", "no", "0"})
 
 
 def show(register: Register[Any], value: Any, absent: Collection[str] = ()) -> Plain:  # noqa: ANN401 - a value of any register
@@ -180,7 +181,7 @@ def _digits(register: Register[Any], text: str) -> tuple[str, str]:
 
 
 def _exactly(register: Register[Any], text: str) -> int | float:
-    whole = _whole(text)
+    whole = whole_of(text)
     if whole is not None:
         return whole
     number = Decimal(text)
@@ -190,7 +191,7 @@ def _exactly(register: Register[Any], text: str) -> int | float:
     return close if close != int(close) or register.kind == "number" else int(close)
 
 
-def _whole(text: str) -> int | None:
+def whole_of(text: str) -> int | None:
     """The number of `1500` or `0x1F`; None for another text."""
     return int(text, 16 if "x" in text.lower() else 10) if _WHOLE.fullmatch(text) else None
 
@@ -229,7 +230,7 @@ def _member(register: Register[Any], members: Iterable[Any], plain: Plain) -> An
 
 def _fitting(known: Sequence[Any], text: str) -> list[Any]:
     """Members with this name; else with this label or code; else with a label that begins with this word."""
-    wanted, code = text.casefold(), _whole(text)
+    wanted, code = text.casefold(), whole_of(text)
     by_name = [one for one in known if wanted in {one.name.casefold(), _qualified(one).casefold()}]
     by_label_or_code = [one for one in known if one.label.casefold() == wanted or one.value == code]
     by_first_word = [one for one in known if one.label.casefold().split()[:1] == [wanted]]
@@ -258,27 +259,28 @@ def _flags_or_fields(register: Register[Any], plain: Plain) -> Any:  # noqa: ANN
         if not text or text.casefold() in nothing:
             continue
         if register.kind == "flags":
-            value |= _flag(register.path, members, text)
+            value |= flag_of(register.path, members, text)
         else:
-            value = _with_part(register, value, text)
+            value = with_part(register, value, text)
     return value
 
 
-def _flag(path: str, members: Any, name: str) -> Any:  # noqa: ANN401 - flags of the register
+def flag_of(path: str, members: Any, name: str) -> Any:  # noqa: ANN401 - flags of the register
+    """The flag with this name or label, or `bit_9`, which may have none."""
     for member in members:
         label = getattr(member, "label", "")
         if name.casefold() in {member.name.casefold(), str(label).casefold()}:
             return member
-    bit = re.fullmatch(r"bit_([0-9]{1,2})", name)
+    bit = re.fullmatch(r"bit_([0-9]{1,4})", name)
     if bit:
         return members(1 << int(bit[1]))
     raise ValueRefused(path, f"`{name[:60]}` is no flag{meant(name, [one.name for one in members])}")
 
 
-def _with_part(register: Register[Any], word: Any, text: str) -> Any:  # noqa: ANN401 - a word of the register
+def with_part(register: Register[Any], word: Any, text: str) -> Any:  # noqa: ANN401 - a word of the register
     """The word with one part set by `part=value` or `rest=0x8000`."""
     name, _, value = text.partition("=")
-    rest = _whole(value) if name == "rest" else None
+    rest = whole_of(value) if name == "rest" else None
     if rest is not None:
         return type(word)(int(word) | rest)
     if name not in word.parts or not value:
@@ -286,6 +288,8 @@ def _with_part(register: Register[Any], word: Any, text: str) -> Any:  # noqa: A
         raise ValueRefused(register.path, f"`{text[:60]}` is no part{hint}")
     try:
         return word.replace(**{name: _part(register, vars(type(word))[name], value)})
+    except ValueRefused:
+        raise
     except ValueError as error:
         raise ValueRefused(register.path, str(error)) from None
 
@@ -297,7 +301,7 @@ def _part(register: Register[Any], part: Bit | Field[Any], text: str) -> float:
         return int(_member(register, part.kind, text))
     if isinstance(part, NumberField):
         return _exactly(register, _digits(register, text.strip())[0])
-    number = _whole(text)
+    number = whole_of(text)
     if number is None:
         raise ValueRefused(register.path, f"`{text[:60]}` is no whole number")
     if not 0 <= number < 1 << (part.high - part.low + 1):
@@ -308,7 +312,7 @@ def _part(register: Register[Any], part: Bit | Field[Any], text: str) -> float:
 def _bits(path: str, plain: Plain) -> int | None:
     """A pattern of bits that is given as a number; None where names are given."""
     if isinstance(plain, str):
-        return _whole(plain.strip())
+        return whole_of(plain.strip())
     if isinstance(plain, (bool, float)):
         raise ValueRefused(path, f"{plain!r} is no pattern of bits: name them, or write a whole number")
     return plain if isinstance(plain, int) else None
@@ -316,6 +320,6 @@ def _bits(path: str, plain: Plain) -> int | None:
 
 def _boolean(path: str, plain: object) -> bool:
     text = str(plain).strip().casefold()
-    if text not in _TRUE | _FALSE:
+    if text not in TRUE | FALSE:
         raise ValueRefused(path, f"`{text[:60]}` is neither true nor false")
-    return text in _TRUE
+    return text in TRUE

@@ -136,7 +136,14 @@ def write_raw(register: Register[Any], words: tuple[int, ...], view_name: str | 
     return task
 
 
-def change(register: Register[T], how: Callable[[T], T], *, confirm: bool, verify: bool | None = None) -> Task[T]:
+def change(
+    register: Register[T],
+    how: Callable[[T], T],
+    *,
+    confirm: bool,
+    verify: bool | None = None,
+    view: str | None = None,
+) -> Task[T]:
     """Read, modify, write; bits without a meaning, or without one now, stay as they are."""
 
     def task(session: Session) -> Operation[T]:
@@ -145,7 +152,8 @@ def change(register: Register[T], how: Callable[[T], T], *, confirm: bool, verif
         held = int(before) if isinstance(before, Flags | Word) else 0
         if kept := codec.idle_bits(register, held, session.memory, session.givens):
             value = register.value_type.make(int(value) | kept)  # type: ignore[call-overload] # bits are whole numbers
-        yield from write(register, value, confirm=confirm, verify=verify, kept=kept, before=before)(session)
+        whole = write(register, value, view=view, confirm=confirm, verify=verify, kept=kept, before=before)
+        yield from whole(session)
         return value
 
     return task

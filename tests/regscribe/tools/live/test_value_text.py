@@ -166,7 +166,7 @@ def test_a_number_of_use_is_read_as_it_is_shown(number: float) -> None:
 
 
 @pytest.mark.parametrize(
-    "text", ["1e5000", "1e+5000", "1_0", "1_0 °C", "1,5", "1 000", "1.2.3", "0x11112222333344445", "12'000"]
+    "text", ["1e5000", "1e+5000", "1_0", "1_0 °C", "1,5", "1 000", "1.2.3", "0x" + 501 * "1", "12'000"]
 )
 def test_what_is_no_number_of_use_is_not_taken_for_a_unit(text: str) -> None:
     for name in ("setpoint_ram", "input_filter"):
