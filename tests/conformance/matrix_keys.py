@@ -127,6 +127,7 @@ FOR_READERS = frozenset(
         "flags.none",
         "flag_details.description",
         "field.unit",
+        "unit_symbol.description",
         "field.description",
         "computed.name",
         "computed.description",
