@@ -19,6 +19,7 @@ from regscribe.checks import (  # noqa: F401 (each declares its rules)
     header,
     identifiers,
     line_settings,
+    pages,
     process,
     programs,
     ranges,
