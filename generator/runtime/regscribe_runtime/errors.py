@@ -214,10 +214,10 @@ class NotApplied(WriteFailed):
 
 
 class NotConfigured(WriteFailed):
-    """`configure` broke off; `report` has the fate of each register: written, undone, unknown."""
+    """`configure` broke off (`why`); `report` has the fate of each register: written, undone, unknown."""
 
     def __init__(self, reason: str, report: WriteReport) -> None:
-        self.report = report
+        self.why, self.report = reason, report
         super().__init__("configure", f"{reason}. {report.told}")
 
 

@@ -45,15 +45,19 @@ def fit(
     state: Mapping[str, Any],
     givens: Mapping[str, Any],
     include: Collection[str] = (),
+    held: Collection[str] = (),
 ) -> BackupFit:
     """Compare a backup with a driver; `state` has the device's present values where the file has none.
 
-    `include` names kinds of settings that are to be written although they stay with their device.
+    `include` names kinds of settings that are to be written although they stay with their device. What the device has
+    `held` as the file has it, whether it is a value or not, need not fit.
     """
-    stays = _staying(backup, driver, include)
+    stays = staying(backup, driver, include)
     parsed: dict[str, Any] = {}
     misfits: list[Misfit] = []
     for path, saved in backup.settings():
+        if path in held:
+            continue
         try:
             parsed[path] = _value(path, saved, driver)
         except ValueRefused as refusal:
@@ -86,7 +90,8 @@ def _did_not_exist(path: str, driver: Driver, context: _Context) -> bool:
     return isinstance(absence(path, register.when, context.saved, context.givens, lacking), NotPresent)
 
 
-def _staying(backup: Backup, driver: Driver, include: Collection[str]) -> dict[str, str]:
+def staying(backup: Backup, driver: Driver, include: Collection[str]) -> dict[str, str]:
+    """The settings of a backup that are not written, with the kind of each that is not in `include`."""
     own = {path: one.stays for path, one in driver.registers.items()}
     kinds = {path: saved.stays or own.get(path, "") for path, saved in backup.settings()}
     return {path: kind for path, kind in kinds.items() if kind not in {"", *include}}

@@ -1,18 +1,18 @@
 """Writes a backup back: checked as a whole first, in the map's order, only what differs, resumable after a break."""
 
-from collections.abc import Collection, Mapping
+from collections.abc import Collection, Iterable, Mapping
 from typing import Any, NamedTuple
 
 from regscribe.tools.live.names import Driver
-from regscribe.tools.live.reading import unit_needs
-from regscribe.tools.settings.backup import Backup, UnfitError
-from regscribe.tools.settings.compatibility import BackupFit, Misfit, fit
-from regscribe.tools.settings.take import writable
-from regscribe_runtime import ValueRefused
+from regscribe.tools.live.reading import shown_needs, unit_needs
+from regscribe.tools.settings.backup import Backup, Saved, UnfitError
+from regscribe.tools.settings.compatibility import BackupFit, Misfit, fit, staying
+from regscribe.tools.settings.take import read_saved, writable
+from regscribe_runtime import NotConfigured, Register, ValueRefused
 from regscribe_runtime.errors import ValuesRefused
 from regscribe_runtime.operations import tasks
 from regscribe_runtime.operations.session import Operation, Session, Task
-from regscribe_runtime.report import Teller, WriteReport
+from regscribe_runtime.report import Change, Fate, Teller, Words, WriteReport
 
 MOST_NAMED = 8
 """Misfits that a message lists before it says how many more there are."""
@@ -44,8 +44,8 @@ def restore(
     """
 
     def task(session: Session) -> Operation[Restored]:
-        state = yield from _present(session, driver)
-        found = fit(backup, driver, state=state, givens=session.givens, include=include)
+        state, held = yield from _present(session, driver, backup, include)
+        found = fit(backup, driver, state=state, givens=session.givens, include=include, held=held)
         if not partial:
             _refuse(found)
         while True:
@@ -58,20 +58,58 @@ def restore(
                 if not partial:
                     raise
                 found = _without(found, refusal)
+            except NotConfigured as error:
+                raise NotConfigured(error.why, _beside(held, error.report)) from error.__cause__
         if not dry_run:
-            yield from _in_effect(session, found.values, report)
-        return Restored(found, report)
+            yield from _in_effect(session, (*held, *found.values), report)
+        return Restored(found, _beside(held, report))
 
     return task
 
 
-def _present(session: Session, driver: Driver) -> Operation[dict[str, Any]]:
-    """Read the values that units and scales of settings depend on."""
-    paths: dict[str, None] = {}
-    for register in writable(driver):
-        paths.update(dict.fromkeys((*unit_needs(register), *register.needs(register.read_view()))))
-    snapshot = yield from tasks.read_many([session.registers[path] for path in paths])(session)
-    return snapshot.valid
+def _present(
+    session: Session, driver: Driver, backup: Backup, include: Collection[str]
+) -> Operation[tuple[dict[str, Any], dict[str, Change]]]:
+    """Read the values that units and scales of settings depend on, and which settings the device holds already."""
+    stays = staying(backup, driver, include)
+    wanted = {path: saved for path, saved in backup.settings() if path not in stays}
+    asked = [one for one in writable(driver) if one.path in wanted]
+    needed = {path for one in asked for path in (*unit_needs(one), *one.needs(one.read_view()))}
+    state, present = yield from read_saved(asked, lambda one: (*shown_needs(one), *one.needs(one.read_view())))(session)
+    held = _held(driver, wanted, present)
+    known = {path: value for path, value in state.items() if path in needed or path in held}
+    return known, {path: _equal(driver.registers[path], present[path].raw, state.get(path)) for path in held}
+
+
+def _held(driver: Driver, wanted: Mapping[str, Saved], present: Mapping[str, Saved]) -> list[str]:
+    """The settings whose words and value are those of the file, and stay so while the others are written."""
+    same = {path for path, saved in wanted.items() if path in present and _same(saved, present[path])}
+    while left := {path for path in same if not wanted.keys().isdisjoint(_deciding(driver.registers[path]) - same)}:
+        same -= left
+    return [path for path in wanted if path in same]
+
+
+def _same(saved: Saved, present: Saved) -> bool:
+    """Whether the words are those of the file and mean the same: a value, or none for the same reason."""
+    return bool(saved.raw) and _meaning(saved) == _meaning(present)
+
+
+def _meaning(saved: Saved) -> tuple[object, ...]:
+    return saved.raw, saved.value, saved.unit, saved.error
+
+
+def _deciding(register: Register[Any]) -> set[str]:
+    """The registers that decide where a register stands, whether it exists, what its words mean, and its unit."""
+    needs = register.needs(register.read_view())
+    return {*needs, *shown_needs(register), *register.when.registers, *register.counters}
+
+
+def _beside(held: Mapping[str, Change], report: WriteReport) -> WriteReport:
+    return report._replace(changes=(*held.values(), *report.changes))
+
+
+def _equal(register: Register[Any], words: Words, value: object) -> Change:
+    return Change(register.path, register.read_view().name, words, words, value, value, Fate.EQUAL)
 
 
 def _refuse(found: BackupFit) -> None:
@@ -94,8 +132,8 @@ def _without(found: BackupFit, refusal: ValueRefused) -> BackupFit:
     return found._replace(values=values, misfits=(*found.misfits, *(Misfit(*one) for one in gone.items())))
 
 
-def _in_effect(session: Session, values: Mapping[str, Any], report: WriteReport) -> Operation[None]:
+def _in_effect(session: Session, paths: Iterable[str], report: WriteReport) -> Operation[None]:
     """Run the commands that make settings take effect, if an earlier attempt broke off before them."""
-    for name in dict.fromkeys(session.registers[path].apply for path in values):
+    for name in dict.fromkeys(session.registers[path].apply for path in paths):
         if name and name not in report.commands:
             yield from tasks.run(session.commands[name], confirm=True)(session)

@@ -1,6 +1,6 @@
 """The settings of a model: read from a device in one snapshot as a backup, or as its manual gives their defaults."""
 
-from collections.abc import Mapping
+from collections.abc import Callable, Collection, Iterable, Mapping
 from contextlib import suppress
 from dataclasses import replace
 from datetime import UTC, datetime
@@ -11,7 +11,7 @@ from regscribe.tools.live.names import Driver, groups_of, readable
 from regscribe.tools.live.reading import left_out, read_with, reason, shown_needs, unit_of
 from regscribe.tools.live.value_text import is_number, show
 from regscribe.tools.settings.backup import NO_GROUP, Backup, BackupOrigin, Saved
-from regscribe_runtime import Register, RegscribeError
+from regscribe_runtime import Register, RegscribeError, Snapshot
 from regscribe_runtime.operations.session import Operation, Session, Task
 from regscribe_runtime.registers.codec import present_type
 from regscribe_runtime.registers.octets import OctetType
@@ -53,17 +53,7 @@ def backup(driver: Driver, *, link: str = "", now: datetime | None = None) -> Ta
     registers = {register.path: register for register in (*writable(driver), *identity)}
 
     def task(session: Session) -> Operation[Backup]:
-        snapshot = yield from read_with(registers.values(), shown_needs)(session)
-        state = snapshot.valid
-        saved: dict[str, Saved] = {}
-        for path, register in registers.items():
-            raw = snapshot.words.get(path, ())
-            try:
-                absent = left_out(register, snapshot[path], state, session.givens)
-                held = _saved(register, snapshot[path], state, session.givens, raw)
-                saved[path] = replace(held, value=show(register, snapshot[path], absent), absent=absent)
-            except RegscribeError as error:
-                saved[path] = Saved(error=reason(error, path), raw=raw, stays=register.stays)
+        _, saved = yield from read_saved(registers.values(), shown_needs)(session)
         origin = BackupOrigin(
             map_id=driver.map_id,
             map_sha256=driver.map_sha256,
@@ -77,6 +67,30 @@ def backup(driver: Driver, *, link: str = "", now: datetime | None = None) -> Ta
         return Backup(origin=origin, groups=groups)
 
     return task
+
+
+def read_saved(
+    registers: Collection[Register[Any]], needs: Callable[[Register[Any]], Iterable[str]]
+) -> Task[tuple[dict[str, Any], dict[str, Saved]]]:
+    """Read registers, and those that each `needs`: the values that are known then, and each of `registers` as saved."""
+
+    def task(session: Session) -> Operation[tuple[dict[str, Any], dict[str, Saved]]]:
+        snapshot = yield from read_with(registers, needs)(session)
+        return snapshot.valid, {one.path: _saved_of(one, snapshot, session.givens) for one in registers}
+
+    return task
+
+
+def _saved_of(register: Register[Any], snapshot: Snapshot, givens: Mapping[str, Any]) -> Saved:
+    """A register of a snapshot; one that holds no value with its words and the reason."""
+    raw, state = snapshot.words.get(register.path, ()), snapshot.valid
+    try:
+        value = snapshot[register.path]
+    except RegscribeError as error:
+        return Saved(error=reason(error, register.path), raw=raw, stays=register.stays)
+    absent = left_out(register, value, state, givens)
+    held = _saved(register, value, state, givens, raw)
+    return replace(held, value=show(register, value, absent), absent=absent)
 
 
 def factory(driver: Driver) -> dict[str, Saved]:

@@ -23,6 +23,7 @@ from regscribe_runtime.registers import codec
 from regscribe_runtime.registers.register import Register
 from regscribe_runtime.report import Words
 from regscribe_runtime.values.conditions import Givens, State
+from regscribe_runtime.values.kinds import OCTETS
 from regscribe_runtime.values.views import View
 
 Target = tuple["Register[Any]", "View"]
@@ -30,6 +31,10 @@ Target = tuple["Register[Any]", "View"]
 
 LOOKS = (0.0, 1.0)
 """Seconds before each attempt to read back: a lost link may need a moment."""
+
+
+CERTAIN = 2
+"""Numbers of so many words are told apart by the floats that they are read as."""
 
 
 class RegisterWrite:
@@ -148,6 +153,20 @@ def meaning(
         return codec.decode(register, view, words, state, session.givens, named=named)
     except (ValueNotDecodable, KeyError):
         return None
+
+
+def holds(planned: RegisterWrite, before: Words | None, session: Session) -> bool:
+    """Whether a register that holds the words `before` need not be written.
+
+    The words are equal, or texts or numbers that read the same (another padding, -0.0); of more than two words numbers
+    may read the same that are not.
+    """
+    if before is None or before == planned.words:
+        return before is not None
+    if planned.view.words > CERTAIN and planned.register.kind not in OCTETS:
+        return False
+    held = meaning(planned.register, planned.view, before, planned.state, session)
+    return held is not None and held == planned.value(session)
 
 
 def fate_of_lost(session: Session, write: RegisterWrite, cause: RegscribeError) -> Operation[WriteFailed | None]:

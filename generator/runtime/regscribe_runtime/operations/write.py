@@ -16,6 +16,7 @@ from regscribe_runtime.operations.read import know, present, read
 from regscribe_runtime.operations.read_back import (
     RegisterWrite,
     fate_of_lost,
+    holds,
     in_view,
     read_back_needs,
     verify_write,
@@ -75,7 +76,7 @@ def write(
         check_unit(session, planned)
         if register.persistence in EEPROM and register.can_be_checked:
             found = yield from words_of(session, [planned.target])
-            if in_view(planned.target, found[register.path], state, session.givens) == words:
+            if holds(planned, in_view(planned.target, found[register.path], state, session.givens), session):
                 session.wear.add(register.path, spared=1)
                 return
         yield from unlock(session, register)

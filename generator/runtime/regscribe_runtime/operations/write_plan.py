@@ -10,7 +10,15 @@ from typing import Any, NamedTuple
 from regscribe_runtime.errors import ConditionNotMet, ExceptionAnswer, NotPresent, ValueRefused, ValuesRefused
 from regscribe_runtime.operations.line_change import check_unit
 from regscribe_runtime.operations.read import absences, know
-from regscribe_runtime.operations.read_back import RegisterWrite, Target, in_view, meaning, read_back_needs, words_of
+from regscribe_runtime.operations.read_back import (
+    RegisterWrite,
+    Target,
+    holds,
+    in_view,
+    meaning,
+    read_back_needs,
+    words_of,
+)
 from regscribe_runtime.operations.session import Operation, Session
 from regscribe_runtime.operations.write_order import needs, order
 from regscribe_runtime.operations.write_request import check_condition, check_confirmation
@@ -146,13 +154,14 @@ def plan_changes(
             words = encoded(session, one, present, rounded=rounded, limited=limited)
             planned = RegisterWrite(register, view, words, state)
             check_unit(session, planned)
-            fate = Fate.EQUAL if before == words else Fate.PLANNED
+            fate = Fate.EQUAL if holds(planned, before, session) else Fate.PLANNED
             check_confirmation(register, confirm=confirm or fate is Fate.EQUAL)
         except ValueRefused as refusal:
             refusals.append(refusal)
             continue
         was = meaning(register, view, before, state, session)
-        changes.append(Change(register.path, view.name, before, words, was, one.value, fate))
+        sent = before if before is not None and fate is Fate.EQUAL else words
+        changes.append(Change(register.path, view.name, before, sent, was, one.value, fate))
         if register.rescales and fate is not Fate.EQUAL:  # the device converts what is in this unit of measure
             others = session.registers.items()
             converted |= {path for path, other in others if register.path in registers_of(other.unit)}
