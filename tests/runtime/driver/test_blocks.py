@@ -394,3 +394,7 @@ def test_a_count_that_changes_moves_what_stands_behind(talk: Any) -> None:
     device.words.holds = holds(3)
     device.driver.configure({"curves[1].tail": 8})
     assert device.words.holds == holds(3) | {2 + len(curve(1, 3)) - 1: 8}
+    device.driver.read()
+    device.words.holds = holds(2)
+    device.driver.configure({"curves[1].tail": 8, "curves[1].last": 7})  # both stand behind what one counter counts
+    assert device.words.holds == holds(2) | {2 + len(curve(1, 2)) - 1: 8, 2 + len(curve(1, 2)): 7}

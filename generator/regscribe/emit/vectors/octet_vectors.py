@@ -41,7 +41,7 @@ def texts(register: Register, view: View) -> Iterator[tuple[str, str]]:
         yield full + "Z", "one character too many"
     elif register.kind is Kind.BYTES:
         size = 2 * view.words
-        yield bytes(range(1, size + 1)).hex(), "every byte differs"
+        yield bytes(place & 0xFF for place in range(1, size + 1)).hex(), "every byte differs"
         yield bytes(size).hex(), "zeros"
         yield bytes(size - 1).hex(), "a byte too few"
     else:

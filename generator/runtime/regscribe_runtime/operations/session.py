@@ -151,7 +151,7 @@ class Session:
 
     def forget(self, paths: Iterable[str] | None = None) -> None:
         """Drop some registers from memory; all of them without `paths`."""
-        gone = list(self.memory) if paths is None else [path for path in paths if path in self.memory]
+        gone = [path for path in dict.fromkeys(self.memory if paths is None else paths) if path in self.memory]
         for path in gone:
             del self.memory[path]
         if gone:

@@ -72,3 +72,9 @@ def test_registers_that_agree_share_one_set_and_those_that_differ_do_not(vectors
     assert places[1] == {"path": "two", "models": ["A1", "B2"], "addresses": {"base": 2}, "aliases": [77]}
     assert places[2]["models"] == ["A1"]
     assert found.set_of("three", "B2")["cases"][0]["domain"] == [{"low": "0", "high": "8", "step": "1"}]
+
+
+def test_bytes_beyond_256_are_tried_by_counting_on_from_0(vectors_of: Vectors) -> None:
+    found = vectors_of("- {at: 1, id: blob, name: Blob, type: bytes, length: 129}")
+    first = found.vectors("blob", "encode")[0]["words"]
+    assert (first[0], first[127], first[128]) == (0x0102, 0xFF00, 0x0102)
