@@ -502,3 +502,45 @@ def test_a_backup_says_what_did_not_exist_and_is_restored_without_it() -> None:
     other = Table(mode=0)
     other.driver.run(restore(type(other.driver), taken))
     assert [other.device.peek(path) for path in ("mode", "level", "fan")] == [1, 3, 9]
+
+
+CARDS: dict[str, Any] = {
+    "registers": [
+        {"at": 0, "name": "Card", "type": "uint16", "enum": {0: "none", 1: "relay"}},
+        {"at": 1, "name": "Relay", "type": "uint16", "when": {"card": "relay"}},
+        {"at": 1, "name": "Other", "type": "uint16", "when": {"card": "none"}},
+        {"at": 5, "name": "Count", "type": "uint16", "range": "0..3"},
+        {
+            "id": "units",
+            "name": "Unit",
+            "repeat": {"from": 1, "to": "count", "most": 3},
+            "stride": 1,
+            "registers": [{"at": 10, "name": "Speed", "type": "uint16"}],
+        },
+    ],
+    "commands": {
+        "value": {"name": "Value", "steps": [{"at": 7, "words": [1]}, {"register": "relay", "value": 3}]},
+        "words": {"name": "Words", "steps": [{"register": "relay", "words": [3]}]},
+        "given": {
+            "name": "Given",
+            "arguments": {"number": {}},
+            "steps": [{"register": "relay", "value": {"argument": "number"}}],
+        },
+        "element": {"name": "Element", "steps": [{"register": "units[2].speed", "words": [3]}]},
+    },
+}
+
+
+@pytest.mark.parametrize(
+    ("command", "arguments"), [("value", {}), ("words", {}), ("given", {"number": 3}), ("element", {})]
+)
+def test_a_command_sends_nothing_while_a_register_that_it_writes_does_not_exist(
+    command: str, arguments: dict[str, int]
+) -> None:
+    table = Table(CARDS, card=0, count=1)
+    with pytest.raises(NotPresent):
+        getattr(table.driver.commands, command)(**arguments)
+    assert {entry[1] for entry in table.wire.log} == {3}  # reads alone
+    table = Table(CARDS, card=1, count=2)
+    getattr(table.driver.commands, command)(**arguments)
+    assert table.device.peek("units[2].speed" if command == "element" else "relay") == 3

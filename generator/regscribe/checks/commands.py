@@ -6,6 +6,7 @@ from operator import attrgetter
 from typing import NamedTuple
 
 from regscribe.checks.addresses import TakenAddresses, stretches, without_register
+from regscribe.checks.probe_states import verdict
 from regscribe.checks.rule import Finding, Problem, RuleScope, model_rule, rule_of_models
 from regscribe.model import Command, CommandStep, Related, Space, View
 
@@ -98,6 +99,18 @@ def step_on_read_only(sent: SentStep, scope: RuleScope) -> Iterator[Problem]:
             related = Related(f"`{register.path}` has access {register.access}", register.span)
             message = f"writes `{register.path}` ({stretch}), which can only be read"
             yield message, "correct the step's address, or `access`", related
+
+
+@step_rule("RS0638", "Step that writes a register that need not exist")
+def step_on_absent(sent: SentStep, scope: RuleScope) -> Iterator[Problem]:
+    """A step with its own `when` is sent by that alone; another register may stand at the address then."""
+    for target in scope.named((sent.register,)):
+        if sent.step.when.always or target.when.always:
+            continue
+        if 1 in verdict((target.when, sent.step.when), scope).reached:
+            related = Related(f"`{target.path}` exists under a condition", target.span)
+            message = f"writes `{target.path}` in a step whose `when` also holds while that register does not exist"
+            yield message, f"repeat the condition of `{target.path}` in the step's `when`", related
 
 
 @step_rule("RS0637", "Command by a function that a view does not allow")

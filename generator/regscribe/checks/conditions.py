@@ -134,7 +134,11 @@ def _others(scopes: Scopes) -> Iterator[Finding]:
 def conditional(model: Model) -> Iterator[tuple[str, str, Span, Condition]]:
     """What has a condition and is no register: in words, its id, where it stands, and the condition."""
     for one in model.computed:
-        yield f"computed value `{one.id}`", one.id, one.span, one.when
+        cases = (
+            case.when for part in parts_of((one.term, one.valid)) if isinstance(part, ByCase) for case in part.cases
+        )
+        whens = (one.when, *cases, *(case.when for case in one.valid))
+        yield from ((f"computed value `{one.id}`", one.id, one.span, when) for when in whens)
     for command in model.commands:
         own = f"command `{command.id}`"
         yield f"{own}: it", command.id, command.span, command.when

@@ -2,7 +2,6 @@
 
 from collections.abc import Iterable, Iterator
 from fractions import Fraction
-from itertools import chain
 
 from regscribe.checks.conditions import conditional
 from regscribe.checks.held_values import NUMBERS
@@ -16,6 +15,7 @@ from regscribe.model import (
     Ref,
     Register,
     Related,
+    Span,
     View,
     orders_of,
     registers_of,
@@ -35,7 +35,9 @@ def needed(register: Register) -> Iterator[tuple[str, str]]:
     yield from ((path, "its scale depends on") for path in registers_of(register.scale))
     yield from ((case.then.decimals.register, "its decimals are") for case in register.scale if case.then.decimals)
     yield from ((path, "its scale depends on") for path in _in_scale(register))
+    yield from ((path, "its special values depend on") for path in registers_of(register.special_scale))
     yield from ((path, "its faults depend on") for one in register.sentinels for path in one.when.registers)
+    yield from ((path, "what its value may be depends on") for path in registers_of(register.partial))
     yield from ((path, "what is valid depends on") for path in registers_of(register.valid))
     yield from ((path, "a limit of what is valid is") for path in _limits(register.valid))
     for view in register.views:
@@ -52,6 +54,17 @@ def limiting(register: Register) -> Iterator[tuple[str, str]]:
     if register.writable:
         yield from ((path, "a write depends on") for path in register.writable.when.registers)
     yield from ((path, "its unit depends on") for path in registers_of(register.unit))
+
+
+def depending(scope: RuleScope) -> Iterator[tuple[Register, str, str, Span]]:
+    """Registers that decide something, with who needs them in words, its id and its place."""
+    for register in scope.model.registers:
+        for path, why in dict.fromkeys((*needed(register), *limiting(register))):
+            for other in scope.named((path,)):
+                yield other, f"`{register.path}` needs `{path}` ({why} it)", register.path, register.span
+    for what, thing, span, when in conditional(scope.model):
+        for other in scope.named(when.registers):
+            yield other, f"{what} has a condition on `{other.path}`", thing, span
 
 
 def _limits(cases: Cases[Range]) -> tuple[str, ...]:
@@ -104,14 +117,13 @@ def _ordering(register: Register, scope: RuleScope) -> Iterator[tuple[View, Orde
                 yield view, order, scope.registers[by_code[0]]
 
 
-@register_rule("RS0685", "Deciding register that reading clears")
-def decided_by_clearing(register: Register, scope: RuleScope) -> Iterator[Problem]:
+@model_rule("RS0685", "Deciding register that reading clears")
+def decided_by_clearing(scope: RuleScope) -> Iterator[Finding]:
     """Each time that it is read to decode another one, what it held is lost."""
-    for path, why in dict(chain(needed(register), limiting(register))).items():
-        other = scope.registers.get(path)
-        if other and other.reading.clears:
+    for other, who, thing, span in depending(scope):
+        if other.reading.clears:
             related = Related(f"`{other.path}` has `reading: clears`", other.span)
-            yield f"cannot be used: {why} `{path}`, which reading clears", "correct one of the two", related
+            yield Finding(thing, span, f"{who}, which reading clears", "correct one of the two", related)
 
 
 @model_rule("RS0462", "Registers need each other")
@@ -152,25 +164,10 @@ def _others(name: str, scope: RuleScope) -> Iterator[str]:
 @model_rule("RS0463", "Needed register cannot be read")
 def unreadable(scope: RuleScope) -> Iterator[Finding]:
     """A value that decides must be readable, or it is never known."""
-    for register in scope.model.registers:
-        for path, why in dict.fromkeys((*needed(register), *limiting(register))):
-            for other in _unreadable(path, scope):
-                message = f"needs `{path}` ({why} it), which can only be written"
-                yield Finding.at(register, message, "correct one", _access_of(other))
-    for what, thing, span, when in conditional(scope.model):
-        for other in chain.from_iterable(_unreadable(path, scope) for path in when.registers):
-            message = f"{what} has a condition on `{other.path}`, which can only be written"
-            yield Finding(thing, span, message, "correct one", _access_of(other))
-
-
-def _unreadable(path: str, scope: RuleScope) -> Iterator[Register]:
-    other = scope.registers.get(path)
-    if other and not other.access.readable:
-        yield other
-
-
-def _access_of(register: Register) -> Related:
-    return Related(f"`{register.path}` has access {register.access}", register.span)
+    for other, who, thing, span in depending(scope):
+        if not other.access.readable:
+            related = Related(f"`{other.path}` has access {other.access}", other.span)
+            yield Finding(thing, span, f"{who}, which can only be written", "correct one", related)
 
 
 @register_rule("RS0464", "Decimals from a register that is no whole number")

@@ -2,9 +2,9 @@
 
 from collections.abc import Iterator
 
-from regscribe.checks.references import limiting, needed
-from regscribe.checks.rule import Problem, RuleScope, register_rule
-from regscribe.model import Access, Register, Related, View
+from regscribe.checks.references import depending
+from regscribe.checks.rule import Finding, Problem, RuleScope, model_rule, register_rule
+from regscribe.model import Access, Register, Related, Span, View
 
 HELD = ("default", "delivered", "default_cases", "delivered_cases", "shadows", "follows", "persistence", "aliases")
 """What only a register with words of its own can have."""
@@ -58,14 +58,21 @@ def _spelled(view: View, addresses: set[int]) -> str:
     return f"{view.space} {'..'.join(map(view.space.spelled, ends))}"
 
 
-@register_rule("RS0614", "Second reading that decides")
-def decides(register: Register, scope: RuleScope) -> Iterator[Problem]:
+@model_rule("RS0614", "Second reading that decides")
+def decides(scope: RuleScope) -> Iterator[Finding]:
     """A driver remembers what decides, and forgets it when that register is written, not when its second reading is."""
-    following = [(case.then, "its value is that of") for case in register.follows]
-    following += [(register.shadows, "its value begins as that of")] if register.shadows else []
-    for path, why in dict.fromkeys((*needed(register), *limiting(register), *following)):
-        other = scope.registers.get(path)
-        if other and other.rereads:
-            related = Related(f"`{path}` reads `{other.rereads}` again", other.span)
-            remedy = f"name `{other.rereads}`, or let that one read `{path}` again"
-            yield f"needs `{path}` ({why} it), a second reading of `{other.rereads}`", remedy, related
+    for other, who, thing, span in (*depending(scope), *_following(scope)):
+        if other.rereads:
+            related = Related(f"`{other.path}` reads `{other.rereads}` again", other.span)
+            remedy = f"name `{other.rereads}`, or let that one read `{other.path}` again"
+            yield Finding(thing, span, f"{who}, a second reading of `{other.rereads}`", remedy, related)
+
+
+def _following(scope: RuleScope) -> Iterator[tuple[Register, str, str, Span]]:
+    """As `depending`, for the registers whose value another one takes."""
+    for register in scope.model.registers:
+        ways = {case.then: "its value is that of" for case in register.follows}
+        ways |= {register.shadows: "its value begins as that of"} if register.shadows else {}
+        for other in scope.named(ways):
+            why = f"({ways[other.path]} it)"
+            yield other, f"`{register.path}` needs `{other.path}` {why}", register.path, register.span

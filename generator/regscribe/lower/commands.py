@@ -1,11 +1,12 @@
 """Commands: each step becomes the words of one request; effects are what changes besides."""
 
+from collections.abc import Iterator
 from dataclasses import dataclass, replace
 from fractions import Fraction
 from typing import NamedTuple
 
 from regscribe.lower.blocks import block_named
-from regscribe.lower.conditions import condition_of
+from regscribe.lower.conditions import both, condition_of
 from regscribe.lower.node import Value
 from regscribe.lower.register_values import named_value
 from regscribe.lower.registers import register_of
@@ -15,7 +16,19 @@ from regscribe.lower.subject import Subject, code_of_text, subject_of
 from regscribe.lower.texts import identifier, known_name
 from regscribe.lower.tree import TreeNode, TreePosition
 from regscribe.lower.variants import settings_of
-from regscribe.model import Access, Command, CommandStep, Effect, Kind, Protocol, Register, Rounding, Space, View
+from regscribe.model import (
+    Access,
+    Command,
+    CommandStep,
+    Condition,
+    Effect,
+    Kind,
+    Protocol,
+    Register,
+    Rounding,
+    Space,
+    View,
+)
 from regscribe.reference import RefusedError, UnknownValueError, encode
 from regscribe_runtime.values.kinds import OCTETS
 
@@ -56,13 +69,19 @@ def _command(node: Value, device: CommandScope) -> Command:
         steps=tuple(step for step, _ in steps),
         step_registers=tuple(path for _, path in steps),
         arguments=tuple(arguments.taken.items()),
-        when=condition_of(node, device.scope),
+        when=both(condition_of(node, device.scope), *_existence(steps, device)),
         description=node.text_of("description"),
         section=node.text_of("source"),
         danger=node.text_of("danger"),
         effects=tuple(_effect(effect, device) for effect in node.elements_of("effects") if device.scope.has(effect)),
         span=node.key_span,
     )
+
+
+def _existence(steps: list[tuple[CommandStep, str]], device: CommandScope) -> Iterator[Condition]:
+    """The conditions under which the registers exist that a command writes in any case."""
+    targets = (path for step, path in steps if step.when.always and path in device.registers)
+    return (device.registers[path].when for path in targets)
 
 
 def _argument(node: Value, command: str, device: CommandScope) -> Register:
