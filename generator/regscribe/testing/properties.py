@@ -21,6 +21,7 @@ from regscribe_runtime.registers.codec import present_type
 from regscribe_runtime.registers.octets import OctetType
 from regscribe_runtime.registers.register import Register
 from regscribe_runtime.registers.value_types import FlagsType, WordType
+from regscribe_runtime.values.wire_types import WireType
 
 each_run = settings(max_examples=40, deadline=None, derandomize=True, database=None)
 """How often each property is tried for each model."""
@@ -126,6 +127,12 @@ def _size(trial: Trial) -> int:
     return int(_view(trial)["words"])
 
 
+def _width(trial: Trial) -> int:
+    """How many bits of its words a register uses: a 24-bit number leaves some."""
+    wire = WireType(_view(trial)["type"])
+    return wire.bits if wire.words == _size(trial) else 16 * _size(trial)
+
+
 def _word(trial: Trial) -> st.SearchStrategy[int]:
     return st.integers(0, {"bit": 1, "uint8": 255}.get(_view(trial)["type"], 65535))
 
@@ -141,7 +148,7 @@ def values(trial: Trial) -> st.SearchStrategy[Any]:
         return (st.sets(st.sampled_from(bits)).map(sum) if bits else st.just(0)).filter(_no_fault(trial))
     if kind == "fields":
         absent = _absent(trial)
-        return st.integers(0, 65536 ** _size(trial) - 1).map(lambda bits: bits & ~absent).filter(_no_fault(trial))
+        return st.integers(0, (1 << _width(trial)) - 1).map(lambda bits: bits & ~absent).filter(_no_fault(trial))
     if kind == "string":
         return st.text(st.characters(min_codepoint=33, max_codepoint=126), max_size=_room(trial)).filter(_taken(trial))
     if kind == "version" or isinstance(trial.register.value_type, OctetType):

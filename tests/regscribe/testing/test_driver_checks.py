@@ -4,6 +4,7 @@ import copy
 import json
 from collections.abc import Callable
 from pathlib import Path
+from types import SimpleNamespace
 from typing import Any
 
 import pytest
@@ -100,3 +101,16 @@ def test_a_request_over_the_limit_or_asked_twice_is_noticed(monkeypatch: pytest.
 
     with pytest.raises(AssertionError, match="80 addresses from 0 in one request, where 79 are allowed"):
         property_holds()
+
+
+def test_no_value_of_parts_needs_bits_that_a_number_of_24_does_not_have() -> None:
+    entry = {"kind": "fields", "views": [{"name": "base", "type": "uint24", "words": 2}]}
+    register = SimpleNamespace(partial=(), value_type=None)
+    trial: Any = SimpleNamespace(entry=entry, view="base", register=register, state={}, givens={})
+
+    @settings(database=None, derandomize=True)
+    @given(hold.values(trial))
+    def drawn(value: int) -> None:
+        assert value < 1 << 24
+
+    drawn()
