@@ -220,7 +220,8 @@ def on_unreachable_page(register: Register, scope: RuleScope) -> Iterator[Proble
             message = f"stands on a page that `{path}` selects, which reading it changes"
             yield message, f"give `{path}` `stays: operation`: it is no setting", related
     if register.page and any(view.space.part_bits or view.space is Space.STATUS for view in register.views):
-        yield "stands on a page, and pages are of holding and input registers and bits", "move it to another group"
+        what = "stands on a page or at another unit id, as only holding and input registers and bits can"
+        yield what, "move it to another group"
     if register.page and register.path in {
         path for rule in scope.register_map.identity for path in rule.identity.registers()
     }:

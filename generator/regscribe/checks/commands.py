@@ -136,6 +136,11 @@ def step_into_the_middle(sent: SentStep, scope: RuleScope) -> Iterator[Problem]:
     """Commands may go to addresses of no register, but not to reserved or unused ones, nor to a part of a value."""
     step, first, last = sent.step, sent.step.address, sent.last
     end = (first | sent.space.last) if sent.space.part_bits else sent.space.last
+    if sent.register and (page := sent.space.page(first)):
+        unit = scope.model.pages[page - 1].unit
+        where = f"at unit id {unit}" if unit else "on a page"
+        yield f"writes `{sent.register}`, which stands {where}, where no step writes", "write that register by itself"
+        return
     if first < 0 or last > end:
         yield f"writes {first}..{last}, outside 0..{sent.space.last}", "correct the step's address"
     for word, space, low, high in without_register(scope) if not step.block else ():
