@@ -51,7 +51,7 @@ def command(*, left: str, right: str, stays: bool, packages: tuple[str, ...], co
 def _factory(side: Side, packages: tuple[str, ...]) -> Side:
     with reported():
         driver = catalogue.find(f"{side.map_id}:{side.model}", packages).driver
-    defaults = settings.factory(driver)
+    defaults = settings.factory(driver, side.settings)
     if not defaults:
         message = f"the manual of the {side.model} gives no defaults: compare with a backup of a device as delivered"
         raise Failure(message, kind="no-defaults", code=USAGE)

@@ -5,16 +5,18 @@ from contextlib import suppress
 from dataclasses import replace
 from datetime import UTC, datetime
 from fractions import Fraction
+from types import MappingProxyType
 from typing import Any
 
 from regscribe.tools.live.names import Driver, groups_of, readable
-from regscribe.tools.live.reading import left_out, read_with, reason, shown_needs, unit_of
-from regscribe.tools.live.value_text import is_number, show
+from regscribe.tools.live.reading import left_out, read_with, reason, shown_needs, unit_needs, unit_of
+from regscribe.tools.live.value_text import is_number, parse, show
 from regscribe.tools.settings.backup import NO_GROUP, Backup, BackupOrigin, Saved
-from regscribe_runtime import Register, RegscribeError, Snapshot
+from regscribe_runtime import Register, RegscribeError, Snapshot, ValueRefused
 from regscribe_runtime.operations.session import Operation, Session, Task
 from regscribe_runtime.registers.codec import present_type
 from regscribe_runtime.registers.octets import OctetType
+from regscribe_runtime.registers.presence import absence
 from regscribe_runtime.values.conditions import choose
 from regscribe_runtime.values.kinds import OCTETS, Kind
 from regscribe_runtime.values.numbers import Number, exact
@@ -93,8 +95,11 @@ def _saved_of(register: Register[Any], snapshot: Snapshot, givens: Mapping[str, 
     return replace(held, value=show(register, value, absent), absent=absent)
 
 
-def factory(driver: Driver) -> dict[str, Saved]:
-    """The settings of a model by path, where its manual gives a default."""
+def factory(driver: Driver, beside: Mapping[str, Saved] = MappingProxyType({})) -> dict[str, Saved]:
+    """The settings of a model by path, where its manual gives a default and they exist as delivered.
+
+    What the defaults leave open (a condition on a register without one) is as in the settings `beside` them.
+    """
     values: dict[str, Any] = {}
     for one in writable(driver):
         if one.default is not None:
@@ -103,7 +108,36 @@ def factory(driver: Driver) -> dict[str, Saved]:
         with suppress(KeyError):  # the case depends on what has no default
             if (default := choose(one.default_cases, values, {})) is not None:
                 values[one.path] = _default_of(one, default, values)
-    return {path: _saved(driver.registers[path], value, values, {}) for path, value in values.items()}
+    there = {
+        path: driver.registers[path] for path in values if _stands(driver.registers[path], values, beside.get(path))
+    }
+    return {path: _delivered(one, values[path], values, beside.get(path, Saved())) for path, one in there.items()}
+
+
+def _stands(register: Register[Any], state: Mapping[str, Any], beside: Saved | None) -> bool:
+    """Whether a register exists as delivered; where the defaults leave that open, whether it does on the other side."""
+    try:
+        return absence(register.path, register.when, state, {}) is None
+    except KeyError:
+        return beside is None or beside.value is not None or bool(beside.raw)
+
+
+def _delivered(register: Register[Any], value: Any, state: Mapping[str, Any], beside: Saved) -> Saved:  # noqa: ANN401 (a value of any register)
+    """A default; a code that means nothing by itself, or a number without a unit, has that of an equal one `beside`."""
+    if register.value_type.coded and type(value) is int and value == _code_of(register, beside):
+        return replace(beside, raw=(), stays=register.stays)
+    saved = _saved(register, value, state, {})
+    if is_number(saved.value) and not set(unit_needs(register)) <= set(state):
+        saved = replace(saved, unit=beside.unit)
+    absent = left_out(register, value, state, {})
+    return replace(saved, value=show(register, value, absent), absent=absent)
+
+
+def _code_of(register: Register[Any], saved: Saved) -> int | None:
+    """The code of a saved value; None where it has none."""
+    with suppress(ValueRefused):
+        return None if saved.value is None else int(parse(register, saved.value))
+    return None
 
 
 def _default_of(register: Register[Any], default: Number | float | str | None, state: Mapping[str, Any]) -> Any:  # noqa: ANN401 (a value of any register)
