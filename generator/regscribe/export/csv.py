@@ -21,13 +21,15 @@ from regscribe.emit.words import (
     plain_interval,
     term_words,
 )
-from regscribe.export.further import beginning, further
+from regscribe.export.further import beginning, further, valid_words
 from regscribe.model import (
     IDENTITY,
     BitField,
+    Cases,
     Command,
     CommandStep,
     Computed,
+    Condition,
     Kind,
     Model,
     Page,
@@ -111,7 +113,7 @@ def rows(maps: Iterable[RegisterMap]) -> Iterator[Row]:
 
 
 def _register_row(register_map: RegisterMap, model: Model, register: Register) -> Row:
-    minimum, maximum = _limits(register)
+    minimum, maximum = _limits(register.range or register.valid)
     space, page = register.base.space, model.pages[register.page - 1] if register.page else Page()
     place = space.facts(register.address)
     return Row(
@@ -140,7 +142,7 @@ def _register_row(register_map: RegisterMap, model: Model, register: Register) -
         section=one_line(register.section),
         block=register.block,
         page=", ".join(map(_selected, page.selectors, page.steps)),
-        exists="" if register.when.always else one_line(condition_words(register.when, model)),
+        exists=_exists(register.when, model),
         file=str(place.get("file", "")),
         queue=str(place.get("queue", "")),
         unit_id=str(page.unit or ""),
@@ -189,10 +191,25 @@ def _command_row(register_map: RegisterMap, model: Model, command: Command) -> R
         group=command.group,
         section=one_line(command.section),
         block=first.block if first else "",
+        exists=_exists(command.when, model),
+        more=_object(_steps(command, model)),
     )
 
 
+def _steps(command: Command, model: Model) -> dict[str, str]:
+    """The conditions of the steps that have one, in words."""
+    several = ((number, step.when) for number, step in enumerate(command.steps, 1) if not step.when.always)
+    words = "; ".join(f"step {number} while {condition_words(when, model)}" for number, when in several)
+    return {"steps": one_line(words)} if words else {}
+
+
+def _exists(when: Condition, model: Model) -> str:
+    return "" if when.always else one_line(condition_words(when, model))
+
+
 def _computed_row(register_map: RegisterMap, model: Model, computed: Computed) -> Row:
+    minimum, maximum = _limits(computed.valid)
+    more = {"valid": valid_words(computed.valid), "description": one_line(computed.description)}
     return Row(
         map=register_map.id,
         model=one_line(model.name),
@@ -201,9 +218,12 @@ def _computed_row(register_map: RegisterMap, model: Model, computed: Computed) -
         access="r",
         kind="computed",
         unit=one_line(computed.unit),
+        minimum=minimum,
+        maximum=maximum,
         scale=one_line(term_words(computed.term)),
         section=one_line(computed.section),
-        more=_object({"description": one_line(computed.description)} if computed.description else {}),
+        exists=_exists(computed.when, model),
+        more=_object({key: text for key, text in more.items() if text}),
     )
 
 
@@ -233,12 +253,11 @@ def _scale(register: Register) -> str:
     return cases_words(map_cases(register.scale, conversion_words))
 
 
-def _limits(register: Register) -> tuple[str, str]:
+def _limits(cases: Cases[Range]) -> tuple[str, str]:
     """Numbers where the range is one interval between numbers, else the limits of each case in words.
 
     Cases that differ in their decimals only are the one range that the manual's table prints.
     """
-    cases = register.range or register.valid
     printed = [case.then._replace(decimals=None) for case in cases]
     if len(cases) > 1 and all(one == printed[0] for one in printed):
         cases = always(printed[0])

@@ -19,7 +19,7 @@ from regscribe.emit.words import (
     sentinel_words,
     term_words,
 )
-from regscribe.model import Model, Order, OrderCases, Register, View, show
+from regscribe.model import Cases, Model, Order, OrderCases, Range, Register, View, show
 from regscribe_runtime.values.facts import Governs
 from regscribe_runtime.values.octets import BLANK, FF, NUL, PLAIN_TEXT, TextForm
 from regscribe_runtime.values.orders import orders_of
@@ -122,13 +122,18 @@ def _form(register: Register) -> Iterator[Fact]:
         labels = {one.spelled: one_line(one.label) for one in register.sentinels}
         yield "sentinels", labels if always else "; ".join(map(sentinel_words, register.sentinels))
     if register.valid:
-        plain = plain_interval(register.valid)
-        words = cases_words(map_cases(register.valid, range_words))
-        yield "valid", f"{show(plain[0])}..{show(plain[1])}" if plain else one_line(words)
+        yield "valid", valid_words(register.valid)
     if register.delivered is not None:
         yield "delivered", beginning(register.delivered)
     elif register.delivered_cases:
         yield "delivered", cases_words(map_cases(register.delivered_cases, beginning))
+
+
+def valid_words(cases: Cases[Range]) -> str:
+    """Return what a reading must lie in: `0..100`, or cases in words; empty where anything is valid."""
+    plain = plain_interval(cases)
+    words = cases_words(map_cases(cases, range_words))
+    return f"{show(plain[0])}..{show(plain[1])}" if plain else one_line(words)
 
 
 def beginning(value: Fraction | str) -> str:
