@@ -91,7 +91,12 @@ def test_a_setting_whose_meaning_the_restore_changes_is_written_again(tmp_path: 
 
 
 def test_long_patterns_are_restored_from_their_text(tmp_path: Path) -> None:
-    for what in ("bits of a field from 64 up", "a field of more than 20 digits", "a number of 39 digits"):
+    for what in (
+        "bits of a field from 64 up",
+        "a field of more than 20 digits",
+        "a number of 39 digits",
+        "a field of 600 digits",
+    ):
         register, words = HELD[what]
         bench = Bench(register, words)
         kept = bench.backup(tmp_path)

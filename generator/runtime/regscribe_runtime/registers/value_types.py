@@ -166,7 +166,7 @@ class _BitsType(ValueType[T]):
     def _code(self, register: str, value: Any) -> Fraction:
         if isinstance(value, bool) or not isinstance(value, int):
             raise ValueRefused(register, f"{brief(value)} is no {self.named}")
-        code = _any_number(register, int(value)).numerator
+        code = int(value)
         for name, gone in self.missing.items():
             if code & self.bits[name]:
                 raise _not_now(register, name, gone)
