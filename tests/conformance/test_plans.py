@@ -166,7 +166,7 @@ PAGED: Json = {
                 (
                     ({"page": {"bank": 3, "row": 5}}, {}),
                     ({"page": {"bank": 4, "row": 6}}, {"functions": [23]}),
-                    ({"page": {"switch": 1}}, {}),
+                    ({"page": {"bank": 5, "switch": 1}}, {}),
                     ({"unit_id": 7}, {}),
                 )
             )
