@@ -27,7 +27,6 @@ from regscribe.model import (
     BitField,
     Cases,
     Command,
-    CommandStep,
     Computed,
     Condition,
     Kind,
@@ -141,7 +140,7 @@ def _register_row(register_map: RegisterMap, model: Model, register: Register) -
         group=register.group,
         section=one_line(register.section),
         block=register.block,
-        page=", ".join(map(_selected, page.selectors, page.steps)),
+        page=", ".join(map("{}={}".format, page.selectors, page.values)),
         exists=_exists(register.when, model),
         file=str(place.get("file", "")),
         queue=str(place.get("queue", "")),
@@ -156,11 +155,6 @@ def _view(register: Register, view: View) -> dict[str, object]:
     if view.space is not register.base.space:
         found |= {"space": view.space} | {key: facts[key] for key in ("file", "queue") if key in facts}
     return found
-
-
-def _selected(path: str, step: CommandStep) -> str:
-    """What is written to select a page: `bank=5`."""
-    return f"{path}={' '.join(map(str, step.words))}"
 
 
 def _default(register: Register) -> str:

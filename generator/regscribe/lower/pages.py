@@ -47,5 +47,7 @@ def pages_of(root: Value, device: CommandScope) -> tuple[Page, ...]:
 
 def _page(group: Value, device: CommandScope, at_once: bool) -> Page:  # noqa: FBT001 (a field of the page)
     steps = [step_of_value(each, key, device) for key, each in group.items_of("page")]
+    named = zip(steps, group.items_of("page"), strict=True)
+    values = tuple(" ".join(map(str, step.words)) if each.is_text else each.text() for (step, _), (_, each) in named)
     paths = tuple(path for _, path in steps)
-    return Page(tuple(step for step, _ in steps), paths, group.whole_of("unit_id"), at_once)
+    return Page(tuple(step for step, _ in steps), paths, values, group.whole_of("unit_id"), at_once)

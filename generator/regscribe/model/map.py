@@ -125,13 +125,14 @@ class IdentityRule:
 
 @dataclass(frozen=True, slots=True)
 class Page:
-    """What selects a page: `steps` write the registers `selectors`, or another unit id (0: none) is asked.
+    """What selects a page: `steps` write `values` to the registers `selectors`, or another unit id (0: none) is asked.
 
     `at_once`: function 23 does so in the request that reads. Nothing for a page of other models.
     """
 
     steps: tuple[CommandStep, ...] = ()
     selectors: tuple[str, ...] = ()
+    values: tuple[str, ...] = ()
     unit: int = 0
     at_once: bool = False
 
@@ -161,6 +162,12 @@ class Model:
     pages: tuple[Page, ...] = ()
     by_path: dict[str, Register] = field(default_factory=dict, compare=False, hash=False, repr=False)
     span: Span = NOWHERE
+
+    def spelled(self, space: Space, address: int) -> str:
+        """An address for people, with the page that it is on or the unit id that it is at."""
+        page = space.page(address)
+        unit = self.pages[page - 1].unit if page else 0
+        return f"{space.inside(address)} at unit id {unit}" if unit else space.spelled(address)
 
     def register(self, path: str) -> Register:
         """Find a register by its path; KeyError if this model has none of that name.

@@ -5,9 +5,11 @@ from typing import Any
 
 import pytest
 
+from regscribe.emit.markdown import render
 from regscribe.simulate.device.device import SimulatedDevice
 from regscribe.simulate.line.server_context import ServerContext
 from regscribe.tools.live.decode import Decoder
+from regscribe_runtime.values.wire_types import Space
 from regscribe_runtime.wire.capture import CapturedFrame
 
 MAP = """
@@ -72,3 +74,12 @@ def test_a_capture_tells_units_apart(device: Any) -> None:
         found += decoder.feed(CapturedFrame("rtu", unit, answer, answer), "received").items
 
     assert [(item.name, item.text) for item in found] == [("alpha", "7"), ("flow", "7")]
+
+
+def test_people_read_unit_ids_and_no_numbers_of_pages(build: Callable[[str], Any]) -> None:
+    built = build(MAP)
+    (page,) = render(built.map).values()
+    assert "10 at unit id 3" in page
+    assert "on page " not in page
+    model = built.map.model("A")
+    assert model.spelled(Space.HOLDING, model.register("flow").address) == "10 at unit id 4"

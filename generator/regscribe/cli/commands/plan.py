@@ -19,7 +19,7 @@ from regscribe.tools.live.errors import unknown
 from regscribe_runtime.operations.prepared_read import laid_out
 from regscribe_runtime.planning import plan
 from regscribe_runtime.planning.cost import Cost
-from regscribe_runtime.planning.plan import Plan, Planned, SplitReason, Terms
+from regscribe_runtime.planning.plan import Block, Plan, Planned, SplitReason, Terms
 from regscribe_runtime.planning.read_order import ReadOrder
 from regscribe_runtime.planning.read_places import read_places
 from regscribe_runtime.values.blocks import bases_in
@@ -209,13 +209,17 @@ class _PlanReport:
         if also:
             tell(f"read along, since the meaning of others depends on it: {', '.join(also)}\n")
 
+    def _span(self, block: Block) -> str:
+        first, last = (self.terms.spelled(block.space, at) for at in (block.address, block.end - 1))
+        return span_words(first, last, "..")
+
     def _row(self, one: Planned, names: Sequence[str]) -> tuple[str, ...]:
         more = f" and {len(names) - MOST_NAMED} more" if len(names) > MOST_NAMED else ""
         block = one.block
         reason = "" if one.split.reason is SplitReason.FIRST else str(one.split.reason)
         return (
             f"{block.function:02d}",
-            span_words(block.space.spelled(block.address), block.space.spelled(block.end - 1), ".."),
+            self._span(block),
             str(one.wanted),
             str(one.quantity),
             str(one.bytes),

@@ -71,10 +71,16 @@ class PageContext:
         found = [item for item in self.map.notations if item.space is space]
         return md(", ".join(f"{one_line(item.name)} {item.printed(address)}" for item in found))
 
+    def place(self, space: Space, address: int) -> str:
+        """Return an address as a model that has its page spells it."""
+        page = space.page(address)
+        models = (model for model in self.map.models if page and model.pages[page - 1].unit)
+        return next(models, self.map.models[0]).spelled(space, address)
+
     def address(self, space: Space, address: int, block: str = "") -> Md:
         """Return an address with its other notations in brackets; none of one that counts from the base of a block."""
         notations = Md() if block else self.notations(space, address)
-        shown = space.spelled(address)
+        shown = self.place(space, address)
         return md(shown, " (", notations, ")") if notations else md(shown)
 
 

@@ -51,7 +51,7 @@ def _place(context: PageContext, leaf: Leaf, register: Register, view: View) -> 
         return md(code(formula(view, register.at, leaf.arrays)), space), Md()
     address = view.address(register.at)
     notations = Md() if register.block else context.notations(view.space, address)
-    return md(escape(view.space.spelled(address)), space), notations
+    return md(escape(context.place(view.space, address)), space), notations
 
 
 def by_condition(context: PageContext, leaf: Leaf) -> tuple[Titled, ...]:
@@ -181,7 +181,7 @@ def elements(context: PageContext, leaf: Leaf) -> tuple[Titled, ...]:
     def rows(model: Model, _: Register) -> Rows:
         items = context.elements[model.name, leaf.register.key]
         return tuple(
-            (code(item.path), *(escape(view.space.spelled(view.address(item.at))) for view in item.views))
+            (code(item.path), *(escape(model.spelled(view.space, view.address(item.at))) for view in item.views))
             for item in items
         )
 

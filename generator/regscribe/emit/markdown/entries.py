@@ -56,11 +56,10 @@ def _page(context: PageContext, model: Model, group: Group) -> Md:
         return Md()
     page = model.pages[number - 1]
     written = (
-        md(context.register(path), " = ", " ".join(map(str, step.words)))
-        for step, path in zip(page.steps, page.selectors, strict=True)
+        md(context.register(path), " = ", value) for path, value in zip(page.selectors, page.values, strict=True)
     )
     if page.unit:
-        return md(f"page {number}: unit id {page.unit}")
+        return md(f"unit id {page.unit}")
     how = "selected by function 23 in the request that reads" if page.at_once else "selected by"
     return md(f"page {number}, {how} ", join(", ", written))
 

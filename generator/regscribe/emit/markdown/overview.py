@@ -1,6 +1,7 @@
 """The overview: one line for each register, ordered by address, in a table for each address space."""
 
 from collections.abc import Callable, Sequence
+from functools import partial
 
 from regscribe.emit.markdown.context import SPACES, PageContext, by_model
 from regscribe.emit.markdown.escape import Md, code, escape, join, link, md
@@ -48,16 +49,16 @@ def _row(context: PageContext, leaf: Leaf, notations: Sequence[Notation], names:
         return by_model(shared, fact)
 
     def address(notation: Notation | None = None) -> Md:
-        return cell(lambda _, register: _span(leaf, register.base, register, notation))
+        return cell(lambda _, register: _span(context, leaf, register.base, register, notation))
 
     def other_view(name: str) -> Md:
-        return cell(lambda _, register: _other_view(leaf, name, register))
+        return cell(lambda _, register: _other_view(context, leaf, name, register))
 
     return (
         address(),
         *map(address, notations),
         *map(other_view, names),
-        cell(lambda _, register: join(", ", (_span(leaf, alias, register) for alias in aliases(register)))),
+        cell(lambda _, register: join(", ", (_span(context, leaf, alias, register) for alias in aliases(register)))),
         link(md(*owners, one_line(shared.first.name)), context.anchor("register", shared.key)),
         code(lettered(shared.first.path)),
         cell(lambda _, register: escape(ACCESS[register.access])),
@@ -68,17 +69,17 @@ def _row(context: PageContext, leaf: Leaf, notations: Sequence[Notation], names:
     )
 
 
-def _span(leaf: Leaf, view: View, register: Register, notation: Notation | None = None) -> Md:
+def _span(context: PageContext, leaf: Leaf, view: View, register: Register, notation: Notation | None = None) -> Md:
     ends = view.address(register.at), last_address(view, register.at, leaf.arrays)
-    return escape(span_words(*map(notation.printed if notation else view.space.spelled, ends)))
+    return escape(span_words(*map(notation.printed if notation else partial(context.place, view.space), ends)))
 
 
-def _other_view(leaf: Leaf, name: str, register: Register) -> Md:
+def _other_view(context: PageContext, leaf: Leaf, name: str, register: Register) -> Md:
     view = next((view for view in register.views[1:] if view.name == name), None)
     if view is None:
         return Md()
     space = f" ({SPACES[view.space]})" if view.space is not register.base.space else ""
-    return md(_span(leaf, view, register), space)
+    return md(_span(context, leaf, view, register), space)
 
 
 def _range(context: PageContext, model: Model, register: Register) -> Md:

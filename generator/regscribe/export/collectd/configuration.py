@@ -89,7 +89,7 @@ def _data(name: str, register: Register, known: Surroundings) -> Iterator[str]:
         message = f"its name has more than {LONGEST_NAME} characters"
         raise LeftOutError(message)
     if register.page:
-        message = "it stands on a page, which the plugin cannot select"
+        message = "it stands on a page or at another unit id, which the plugin cannot select"
         raise LeftOutError(message)
     _check_existence(register, known)
     view = _view(register)

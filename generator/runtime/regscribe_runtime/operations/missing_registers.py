@@ -82,5 +82,7 @@ class MissingRegisters:
             touches = refused.space == item.space and refused.address < item.end and item.address < refused.end
             if alone and touches:
                 when, minutes = datetime.fromtimestamp(since, UTC), 0 if passing else self.seconds / 60
-                return Absent(path, unit=unit, address=item.address, answer=answer, when=when, minutes=minutes)
+                return Absent(
+                    path, unit=unit, address=item.space.inside(item.address), answer=answer, when=when, minutes=minutes
+                )
         return None

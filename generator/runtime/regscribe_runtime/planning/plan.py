@@ -88,6 +88,12 @@ class Terms(NamedTuple):
             return selected, ()
         return page, self.pages[page - 1].steps
 
+    def spelled(self, space: Space, address: int) -> str:
+        """An address for people, with the page that it is on or the unit id that it is at."""
+        page = space.page(address)
+        unit = self.pages[page - 1].unit if page and self.pages else 0
+        return f"{space.inside(address)} at unit id {unit}" if unit else space.spelled(address)
+
     def most(self, block: Block) -> int:
         """The most addresses of one request there."""
         most, stretch = self.limits.most(block.space), self.ground.stretch(block.items[0])
@@ -108,6 +114,7 @@ class SplitReason(StrEnum):
     CHEAPER = "cheaper apart"
     AGAIN = "once more"
     SELECTS = "selects a page"
+    PAGE = "other page or unit id"
 
 
 class Split(NamedTuple):
@@ -261,8 +268,8 @@ def split(before: Block | None, block: Block, terms: Terms) -> Split:
     """Why two neighbours of a plan are two requests."""
     if before is None:
         return Split(SplitReason.FIRST)
-    if before.space != block.space:
-        return Split(SplitReason.SPACE, f"function {before.function:02d} before")
+    if elsewhere := _elsewhere(before, block):
+        return elsewhere
     first, last = (RegisterSpan(one.space, one.address, one.quantity) for one in (before, block))
     gap = block.address - before.end
     barred = terms.ground.between(first, last)
@@ -277,6 +284,13 @@ def split(before: Block | None, block: Block, terms: Terms) -> Split:
     tariff = terms.tariff(block.space, block.address)
     saved = tariff.of(block.end - before.address) - tariff.of(before.quantity) - tariff.of(block.quantity)
     return Split(SplitReason.CHEAPER, f"{gap} between, saves {milliseconds(saved):.1f} ms")
+
+
+def _elsewhere(before: Block, block: Block) -> Split | None:
+    """Why no request could ever carry both: another space, page or unit id."""
+    if before.space != block.space:
+        return Split(SplitReason.SPACE, f"function {before.function:02d} before")
+    return Split(SplitReason.PAGE) if block.space.page(before.address) != block.space.page(block.address) else None
 
 
 def _beyond(before: Block, block: Block, most: int) -> str:
