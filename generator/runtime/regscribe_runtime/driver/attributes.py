@@ -44,9 +44,8 @@ class Readable(BoundRegister[T, Part]):
     def read(self, *, view: str | None = None) -> T:
         """Read the value; `view` chooses another view than the preferred one.
 
-        Registers that its meaning depends on (decimals, word order) are read once and remembered until this driver
-        writes them or reads something else there. `device.read(register)` reads them every time: for when others
-        configure the device too.
+        Registers that its meaning depends on (decimals, word order) are read once and remembered until they are written
+        through this driver. `device.read(register)` reads them every time: for when others configure the device too.
 
         Raises ValueNotDecodable (SensorFault, Saturated, OutOfRange, NotDecodable) for words that are no value, and
         NoAnswer, ExceptionAnswer, WrongAnswer or LinkLost.

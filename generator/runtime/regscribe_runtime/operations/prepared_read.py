@@ -17,7 +17,6 @@ from regscribe_runtime.planning.plan import Terms
 from regscribe_runtime.planning.read_order import ReadOrder, WordPosition, lay_out
 from regscribe_runtime.planning.read_places import place_of, read_places
 from regscribe_runtime.registers import codec
-from regscribe_runtime.registers.enums import SpecialNumber
 from regscribe_runtime.registers.presence import absence
 from regscribe_runtime.registers.register import Register
 from regscribe_runtime.values.views import Readable, is_lasting, needs, read_view
@@ -73,15 +72,6 @@ class PreparedRead:
         for block, words in zip(self.blocks, answers, strict=True):
             values.update(block.decode(words))
         return values
-
-    def superseded(self, entries: Mapping[str, Any], session: Session) -> bool:
-        """Forget what was read otherwise than it is remembered; whether that may change how others are decoded."""
-        watched = {register.path for register, _ in self._watched}
-        other = [
-            path for path, known in session.memory.items() if path not in watched and entries.get(path, known) != known
-        ]
-        session.forget(other)
-        return any(not isinstance(entries[path], SpecialNumber | RegscribeError) for path in other)
 
     def decode_partly(self, answers: Sequence[Words], session: Session) -> dict[str, Any]:
         """As `decode`, for answers in which words are missing: None for a register that could not be read."""

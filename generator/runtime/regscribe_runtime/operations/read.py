@@ -4,7 +4,6 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Mapping, Sequence
-from contextlib import suppress
 from itertools import chain
 from typing import Any, TypeVar
 
@@ -105,19 +104,12 @@ def know(session: Session, paths: Iterable[str], *, fresh: bool = False, depth: 
     unknown = yield from _unknown(session, needs, depth=depth + 1)
     spans = list(map(item_of, registers, views))
     found = yield from fetch(session, spans)
-    read = dict(zip(wanted, zip(registers, views, spans, strict=True), strict=True))
-    values: dict[str, Any] = {}
-    chained = not needs.keys().isdisjoint(wanted)  # then each is decoded behind those that it needs
-    for path in dependencies(session.registers, registers) if chained else wanted:
-        if path in read:
-            register, view, span = read[path]
-            state = codec.known_state(register, session.memory | values if chained else session.memory, unknown)
-            values[path] = codec.decode(register, view, found[span], state, session.givens, named=False)
-    changed = [path for path, value in values.items() if session.memory.get(path, value) != value]
-    if changed:
-        session.forget(changed)
+    values = {}
+    for register, view, span in zip(registers, views, spans, strict=True):
+        state = codec.known_state(register, session.memory, unknown)
+        values[register.path] = codec.decode(register, view, found[span], state, session.givens, named=False)
     for path, value in values.items():
-        if not fresh or path in changed:  # of fresh ones, those remembered that have changed
+        if not fresh or session.memory.get(path, value) != value:  # of fresh ones, those remembered that have changed
             session.remember(path, value)
     return session.memory | values
 
@@ -164,9 +156,7 @@ def read(register: Register[T], view_name: str | None) -> Task[T]:
             state = codec.known_state(register, session.memory, unknown)
             made = codec.decoder(register, view, state, session.givens)
             if unknown:
-                words = yield from session.exchange(read_request(register, view))
-                renew(session, register, view, words)
-                only_now: T = made(words)
+                only_now: T = made((yield from session.exchange(read_request(register, view))))
                 return only_now  # an unknown register may have a value when it is read again
             session.prepared[key] = read_request(register, view), made
         request, decode = session.prepared[key]
@@ -175,23 +165,10 @@ def read(register: Register[T], view_name: str | None) -> Task[T]:
         except ExceptionAnswer:
             yield from present(session, register, fresh=True)
             raise
-        if register.path in session.memory:
-            renew(session, register, register.read_view(view_name), words)
         value: T = decode(words)
         return value
 
     return task
-
-
-def renew(session: Session, register: Register[Any], view: View, words: tuple[int, ...]) -> None:
-    """Forget what is remembered of a register of which other words were read."""
-    if register.path not in session.memory:
-        return
-    value = MISSING
-    with suppress(ValueNotDecodable, KeyError):
-        value = codec.decode(register, view, words, session.memory, session.givens, named=False)
-    if session.memory[register.path] != value:
-        session.forget([register.path])
 
 
 def read_request(register: Register[Any], view: View) -> Request:
@@ -204,10 +181,7 @@ def read_raw(register: Register[Any], view_name: str | None) -> Task[tuple[int, 
 
     def task(session: Session) -> Operation[tuple[int, ...]]:
         yield from present(session, register)
-        view = register.read_view(view_name)
-        words = yield from session.exchange(read_request(register, view))
-        renew(session, register, view, words)
-        return words
+        return (yield from session.exchange(read_request(register, register.read_view(view_name))))
 
     return task
 
@@ -274,10 +248,7 @@ def _read_located(registers: Sequence[Register[Any]], *, fresh: bool, rest: bool
                     continue
             read = tuple(zip(ready.blocks, answers, strict=True))
             if complete:
-                entries = ready.decode(answers)
-                if ready.superseded(entries, session) and not fresh:
-                    continue
-                return Snapshot(entries, read)
+                return Snapshot(ready.decode(answers), read)
             partly = Snapshot(ready.decode_partly(answers, session), read)
             return (yield from _completed(session, registers, partly, fresh=fresh))
         raise Unsteady(unit=session.unit, changed=tuple(changed), tries=TRIES)

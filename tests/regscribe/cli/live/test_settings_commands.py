@@ -94,7 +94,7 @@ def test_settings_without_a_default_are_named_where_others_have_one(
     running.device.poke("access_level", "factory")  # it is delivered with another
     whole = settings.factory
     monkeypatch.setattr(
-        settings, "factory", lambda driver: {key: one for key, one in whole(driver).items() if key != "input_filter"}
+        settings, "factory", lambda *driver: {key: one for key, one in whole(*driver).items() if key != "input_filter"}
     )
     result = cli("diff", oven, "factory")
     assert (result.code, "not compared, for the manual gives no default: input_filter\n" in result.err) == (0, True)
