@@ -544,3 +544,26 @@ def test_a_command_sends_nothing_while_a_register_that_it_writes_does_not_exist(
     table = Table(CARDS, card=1, count=2)
     getattr(table.driver.commands, command)(**arguments)
     assert table.device.peek("units[2].speed" if command == "element" else "relay") == 3
+
+
+STATES: dict[str, Any] = {
+    "registers": [
+        {"at": 0, "name": "State", "access": "r", "type": "uint16", "enum": {0: "heat", 1: "cool"}},
+        {"at": 20, "name": "T", "type": "uint16", "multiply": [{"when": {"state": "heat"}, "is": 0.1}, {"is": 1}]},
+        {"at": 30, "name": "Limit", "type": "uint16", "multiply": [{"when": {"state": "heat"}, "is": 0.1}, {"is": 1}]},
+        {"at": 40, "name": "Level", "type": "uint16", "valid": {"from": 0, "to": "limit"}},
+    ]
+}
+
+
+@pytest.mark.parametrize("how", ["read", "read_raw"])
+def test_what_a_driver_has_read_itself_takes_the_place_of_what_it_remembers(how: str) -> None:
+    table = Table(STATES, state=0)
+    table.device.poke("t", 7)
+    table.device.poke("limit", 5)
+    table.device.poke("level", 5)
+    assert (table.driver.t.read(), table.driver.level.read()) == (7, 5)
+    table.device.poke("state", 1)  # the word 70 is 70, and no longer 7.0; the limit of the level is 50 in place of 5
+    getattr(table.driver.state, how)()
+    table.device.poke("level", 50)
+    assert (table.driver.t.read(), table.driver.level.read()) == (70, 50)

@@ -4,6 +4,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Mapping, Sequence
+from contextlib import suppress
 from itertools import chain
 from typing import Any, TypeVar
 
@@ -156,7 +157,9 @@ def read(register: Register[T], view_name: str | None) -> Task[T]:
             state = codec.known_state(register, session.memory, unknown)
             made = codec.decoder(register, view, state, session.givens)
             if unknown:
-                only_now: T = made((yield from session.exchange(read_request(register, view))))
+                words = yield from session.exchange(read_request(register, view))
+                renew(session, register, view, words)
+                only_now: T = made(words)
                 return only_now  # an unknown register may have a value when it is read again
             session.prepared[key] = read_request(register, view), made
         request, decode = session.prepared[key]
@@ -165,10 +168,22 @@ def read(register: Register[T], view_name: str | None) -> Task[T]:
         except ExceptionAnswer:
             yield from present(session, register, fresh=True)
             raise
+        renew(session, register, register.read_view(view_name), words)
         value: T = decode(words)
         return value
 
     return task
+
+
+def renew(session: Session, register: Register[Any], view: View, words: tuple[int, ...]) -> None:
+    """Forget what is remembered of a register of which other words were read."""
+    if register.path not in session.memory:
+        return
+    value = MISSING
+    with suppress(ValueNotDecodable, KeyError):
+        value = codec.decode(register, view, words, session.memory, session.givens, named=False)
+    if session.memory[register.path] != value:
+        session.forget([register.path])
 
 
 def read_request(register: Register[Any], view: View) -> Request:
@@ -181,7 +196,10 @@ def read_raw(register: Register[Any], view_name: str | None) -> Task[tuple[int, 
 
     def task(session: Session) -> Operation[tuple[int, ...]]:
         yield from present(session, register)
-        return (yield from session.exchange(read_request(register, register.read_view(view_name))))
+        view = register.read_view(view_name)
+        words = yield from session.exchange(read_request(register, view))
+        renew(session, register, view, words)
+        return words
 
     return task
 

@@ -27,6 +27,7 @@ from regscribe_runtime.values.blocks import Chain, Header, RegisterBlock, find, 
 from regscribe_runtime.values.facts import Page
 from regscribe_runtime.values.protocol import Protocol
 from regscribe_runtime.values.serial_line import MODBUS, LineChange, SerialLine
+from regscribe_runtime.values.views import needs, read_view
 from regscribe_runtime.values.wire_types import WIRE, WRITE_AND_READ, Space
 from regscribe_runtime.wire.requests import READ_HOLDING, Reply, Request, verify
 
@@ -150,12 +151,21 @@ class Session:
             self._place(self.blocks[self.registers[path].block].chain)
 
     def forget(self, paths: Iterable[str] | None = None) -> None:
-        """Drop some registers from memory; all of them without `paths`."""
-        gone = [path for path in dict.fromkeys(self.memory if paths is None else paths) if path in self.memory]
+        """Drop some registers from memory, with those whose values were decoded by them; all without `paths`."""
+        gone = set(self.memory) if paths is None else self._decoded_by(paths)
         for path in gone:
             del self.memory[path]
         if gone:
             self.prepared.clear()
+
+    def _decoded_by(self, paths: Iterable[str]) -> set[str]:
+        """Those of some registers that are remembered, and what is remembered by their values."""
+        gone = more = {path for path in paths if path in self.memory}
+        while more:
+            left = [self.registers[path] for path in self.memory if path not in gone]
+            more = {one.path for one in left if not more.isdisjoint(needs(one, read_view(one)))}
+            gone = gone | more
+        return gone
 
     @property
     def conditional(self) -> tuple[Register[Any], ...]:
