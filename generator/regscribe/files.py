@@ -97,16 +97,16 @@ def dump(data: Mapping[str, Any], *, remarks: Sequence[str] = ()) -> str:
     return "".join(f"# {remark}\n" for remark in remarks) + body
 
 
-def save(path: Path, text: str) -> None:
-    """Write a file beside its place, flush it to the disk and move it into its place.
+def save(path: Path, content: str | bytes) -> None:
+    """Write a file (a text as UTF-8) beside its place, flush it to the disk and move it into its place.
 
     Raises FileError where that fails (a full disk); a file that was there before is then as it was.
     """
     temporary = ""
     try:
         descriptor, temporary = tempfile.mkstemp(prefix=f".{path.name[:100]}.", dir=path.parent)
-        with os.fdopen(descriptor, "w", encoding="utf-8") as file:
-            file.write(text)
+        with os.fdopen(descriptor, "wb") as file:
+            file.write(content.encode() if isinstance(content, str) else content)
             file.flush()
             os.fsync(file.fileno())
             os.fchmod(file.fileno(), _mode(path))

@@ -6,19 +6,22 @@ object or a module. Whatever a broken one raises becomes a PluginError that name
 
 import re
 from collections.abc import Iterator, Mapping, Sequence
-from contextlib import contextmanager
+from contextlib import contextmanager, suppress
 from dataclasses import dataclass
+from enum import IntEnum
 from importlib.metadata import EntryPoint, entry_points
 from typing import Protocol, cast
 
-from regscribe.model import Diagnostic, RegisterMap
+from regscribe.draft import Draft
+from regscribe.losses import Exported
+from regscribe.model import RegisterMap
 from regscribe.visible import safe
 
 EXPORTERS, IMPORTERS = "regscribe.exporters", "regscribe.importers"
 KINDS = {EXPORTERS: "exporter", IMPORTERS: "importer"}
 
-OPTION = re.compile(r"(?!(format|out|help)$)[a-z][a-z0-9-]*")
-"""Names that an option may have; three are options of `regscribe export` itself."""
+OPTION = re.compile(r"(?!(format|out|help|as|strict|report|report-to|merge)$)[a-z][a-z0-9-]*")
+"""Names that an option may have; those left out are options of `regscribe export` and `import` themselves."""
 
 MOST_TEXT = 300
 """Most characters of a plug-in's error that are shown."""
@@ -53,9 +56,20 @@ class Exporter(Protocol):
     summary: str
     options: tuple[Option, ...]
 
-    def export(self, maps: Sequence[RegisterMap], options: Mapping[str, str]) -> dict[str, str]:
-        """Return texts by path below the folder --out, with `/` between its parts; "" is standard output."""
+    def export(self, maps: Sequence[RegisterMap], options: Mapping[str, str]) -> Exported | dict[str, str]:
+        """Return texts by path below the folder --out, with `/` between its parts; "" is the one text of the format.
+
+        With what the format cannot say, as `Exported`. Raises OptionError.
+        """
         ...
+
+
+class Likeness(IntEnum):
+    """Whether a file is of an importer's form: it is not, it may be (a table is one of many things), it surely is."""
+
+    NO = 0
+    PERHAPS = 1
+    SURE = 2
 
 
 class Importer(Protocol):
@@ -63,9 +77,14 @@ class Importer(Protocol):
 
     name: str
     summary: str
+    options: tuple[Option, ...]
 
-    def read(self, data: bytes, name: str) -> tuple[str, tuple[Diagnostic, ...]]:
-        """Return a map as YAML but for its keys `format` and `map`, and what is to be said of the file `name`."""
+    def likeness(self, data: bytes, name: str) -> Likeness:
+        """Whether the bytes of the file `name` are of this form; told by a look at them, not by reading all."""
+        ...
+
+    def read(self, data: bytes, name: str, options: Mapping[str, str]) -> Draft:
+        """Return the map that the file `name` says, with what became of each of its rows. Raises OptionError."""
         ...
 
 
@@ -84,29 +103,46 @@ def importer(name: str) -> Importer:
     return cast("Importer", _load(IMPORTERS, name))
 
 
-def export(name: str, maps: Sequence[RegisterMap], options: Mapping[str, str]) -> dict[str, str]:
+def export(name: str, maps: Sequence[RegisterMap], options: Mapping[str, str]) -> Exported:
     """Return what an exporter makes of the maps. Raises PluginError and OptionError."""
     loaded = exporter(name)
     with guarded(EXPORTERS, name):
-        texts: object = loaded.export(maps, options)
-        if not isinstance(texts, dict) or not all(isinstance(part, str) for pair in texts.items() for part in pair):
+        result: object = loaded.export(maps, options)
+        made = result if isinstance(result, Exported) else Exported(cast("dict[str, str | bytes]", result))
+        if not _is_content(made.texts):
             message = "it returns no dict of texts"
             raise TypeError(message)
-        "".join(texts.values()).encode()  # raises for what no file can hold
-        return texts
+        "".join(text for text in made.texts.values() if isinstance(text, str)).encode()  # raises for what no file holds
+        return made
 
 
-def read(name: str, data: bytes, file: str) -> tuple[str, tuple[Diagnostic, ...]]:
-    """Return what an importer makes of the bytes of a file. Raises PluginError."""
+def _is_content(texts: object) -> bool:
+    return isinstance(texts, dict) and all(
+        isinstance(path, str) and isinstance(text, str | bytes) for path, text in texts.items()
+    )
+
+
+def recognise(data: bytes, file: str) -> tuple[str, ...]:
+    """The names of the importers whose form the bytes of a file are most likely of. Raises PluginError."""
+    found: dict[str, Likeness] = {}
+    for name in names(IMPORTERS):
+        with suppress(PluginError):  # a broken plug-in disturbs nobody who did not ask for it
+            loaded = importer(name)
+            with guarded(IMPORTERS, name):
+                found[name] = Likeness(loaded.likeness(data, file))
+    most = max(found.values(), default=Likeness.NO)
+    return tuple(name for name, one in found.items() if one is most and most is not Likeness.NO)
+
+
+def read(name: str, data: bytes, file: str, options: Mapping[str, str]) -> Draft:
+    """Return what an importer makes of the bytes of a file. Raises PluginError and OptionError."""
     loaded = importer(name)
     with guarded(IMPORTERS, name):
-        result: object = loaded.read(data, file)
-        match result:
-            case (str(text), tuple(found)) if all(isinstance(one, Diagnostic) for one in found):
-                text.encode()
-                return text, found
-        message = "it returns no text with a tuple of findings"
-        raise TypeError(message)
+        draft: object = loaded.read(data, file, options)
+        if not isinstance(draft, Draft):
+            message = "it returns no Draft"
+            raise TypeError(message)
+        return draft
 
 
 @contextmanager
@@ -155,11 +191,9 @@ def _fault(loaded: object, group: str, name: str) -> str:
     """The member that an object lacks to be a plug-in of its group; empty if none."""
     if getattr(loaded, "name", None) != name or not isinstance(getattr(loaded, "summary", None), str):
         return f"it has no name `{name}` with a summary"
-    method = "export" if group == EXPORTERS else "read"
-    if not callable(getattr(loaded, method, None)):
-        return f"it has no function `{method}`"
-    if group == IMPORTERS:
-        return ""
+    for method in ("export",) if group == EXPORTERS else ("read", "likeness"):
+        if not callable(getattr(loaded, method, None)):
+            return f"it has no function `{method}`"
     options = getattr(loaded, "options", None)
     if isinstance(options, tuple) and all(isinstance(one, Option) and OPTION.fullmatch(one.name) for one in options):
         return ""

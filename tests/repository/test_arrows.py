@@ -49,10 +49,12 @@ ROOMS = {
     "checks": {"model", "reference", "source", "schema", "compose", "lower", WIRE},
     "emit": {"model", "reference", "schema", "visible", RUNTIME},
     "pictures": {"model", "emit", "visible"},
-    "plugins": {"model", "visible"},
-    "export": {"model", "reference", "checks", "emit", "plugins", "visible"},
+    "losses": set[str](),
+    "draft": {"model", "files", "visible"},
+    "plugins": {"model", "visible", "draft", "losses"},
+    "export": {"model", "reference", "checks", "emit", "plugins", "visible", "losses"},
     "evidence": {"model", "emit", "export"},
-    "import_csv": {"model", "emit", "evidence", "files"},
+    "importers": {"model", "emit", "evidence", "files", "draft", "plugins", "visible"},
     "files": {"model", "source", "schema", "visible"},
     "pipeline": {"model", "source", "schema", "compose", "lower", "checks"},
     "simulate": {"model", "reference", "source", "files", "map_files", "pipeline", WIRE},
@@ -60,7 +62,7 @@ ROOMS = {
     "testing": WHOLE,
     "tools": {"model", "source", "schema", "files", "visible", "emit", "pictures"} | WHOLE,
     "cli": {"model", "reference", "source", "schema", "compose", "lower", "checks", "emit", "pictures", "evidence"}
-    | {"plugins", "simulate", "pipeline", "files", "tools", "map_files", "visible"}
+    | {"plugins", "simulate", "pipeline", "files", "tools", "map_files", "visible", "draft", "losses"}
     | WHOLE,
 }
 """Which other rooms a room may import, besides the vocabulary in `regscribe_runtime.values`."""

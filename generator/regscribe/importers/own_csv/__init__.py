@@ -1,0 +1,136 @@
+"""The importer of CSV: a table of registers, in the columns of the export, becomes the groups of a new map.
+
+A cell that states a plain value becomes a key. Any other (a scale under a condition, a limit in words) is left out
+and reported, never guessed.
+"""
+
+import re
+from collections.abc import Mapping, Sequence
+from dataclasses import replace
+from typing import Any
+
+from regscribe.draft import Draft, Entry, Remark, refused
+from regscribe.emit.words import one_line
+from regscribe.evidence.columns import choose
+from regscribe.evidence.table import TableError
+from regscribe.evidence.table import read as read_table
+from regscribe.files import OneLine
+from regscribe.importers.own_csv.further import more
+from regscribe.importers.own_csv.keys import KEYS, Cells
+from regscribe.model import Span
+from regscribe.model.identifiers import snake
+from regscribe.plugins import Likeness, Option
+
+name = "csv"
+summary = "a table of registers in the columns of the export"
+options: tuple[Option, ...] = ()
+
+PASSED_OVER = frozenset({"map", "model", "id", "words", "group", "unit_id", "more"})
+"""Columns that follow from the place of a register, from other columns, or are read apart."""
+
+NO_REGISTERS = {"command": "a command", "computed": "a computed value"}
+"""Kinds of rows that are no registers, in words."""
+
+MOST_TEXT = 60
+"""Characters of a cell that are shown."""
+
+IDS = re.compile(r"[a-z][a-z0-9_]{0,79}")
+
+OWN = frozenset({"map", "model", "id", "address", "access", "kind", "views"})
+"""Columns of the export that no other table has together."""
+
+Row = tuple[int, Cells]
+"""The line of a row, and its cells by column."""
+
+
+def likeness(data: bytes, name: str) -> Likeness:  # noqa: ARG001 - the contract of importers
+    """Surely the export, by the names of its columns."""
+    head = data[:4096].partition(b"\n")[0].decode(errors="replace")
+    cells = {cell.strip().strip('"').lower() for cell in re.split(r"[,;\t]", head.lstrip("\ufeff"))}
+    return Likeness.SURE if cells >= OWN else Likeness.NO
+
+
+def read(data: bytes, name: str, options: Mapping[str, str]) -> Draft:  # noqa: ARG001 - as above
+    """Return the models and groups, and of each row what was left out; refused where the table is none."""
+    try:
+        rows = _rows(data, name)
+        return _draft(rows, name)
+    except (TableError, ValueError) as error:
+        return refused(name, str(error), rule="csv")
+
+
+def _rows(data: bytes, file: str) -> list[Row]:
+    """Read the table. Raises TableError where registers cannot be made of it."""
+    table = read_table(data, file)
+    columns = choose(table, (), ())
+    if missing := {"address", "name", "access"} - columns.at.keys():
+        lacking = f"{file} has no column {', '.join(sorted(missing))}"
+        message = f"{lacking}: a register needs an address, a name and its access"
+        raise TableError(message)
+    return [(row.line, {column: row.cells[at].strip() for column, at in columns.at.items()}) for row in table.rows]
+
+
+def _draft(rows: Sequence[Row], file: str) -> Draft:
+    """Return the draft: rows that differ in their model alone are one register of several models."""
+    models = dict.fromkeys(map(_model, (cells for _, cells in rows)))
+    units = {_group(cells): unit for _, cells in rows if (unit := cells.get("unit_id", "")).isdecimal()}
+    entries: dict[tuple[str, str], Entry] = {}
+    having: dict[tuple[str, str], dict[str, None]] = {}
+    for line, cells in rows:
+        entry = _entry(line, cells, file)
+        key = entry.group, repr(entry.keys or line)
+        entries.setdefault(key, entry)
+        having.setdefault(key, {})[_model(cells)] = None
+    return Draft(
+        entries=tuple(_of_models(entry, having[key], len(models)) for key, entry in entries.items()),
+        head={"models": {model: OneLine() for model in models}},
+        groups={group: {"unit_id": int(unit)} for group, unit in units.items()},
+    )
+
+
+def _of_models(entry: Entry, models: Mapping[str, None], every: int) -> Entry:
+    if entry.keys is None or len(models) == every:
+        return entry
+    return replace(entry, keys={**entry.keys, "models": list(models)})
+
+
+def _model(cells: Cells) -> str:
+    return cells.get("model", "") or "Basic"
+
+
+def _group(cells: Cells) -> str:
+    """The name of the group; registers at a unit id of their own are in one of their own."""
+    unit = cells.get("unit_id", "")
+    return (cells.get("group", "") or "Registers") + (f" at unit {unit}" if unit else "")
+
+
+def _entry(line: int, cells: Cells, file: str) -> Entry:
+    entry = Entry(name=cells["name"], place=Span(file, line, 1, line, 1), group=_group(cells))
+    if cells.get("kind") in NO_REGISTERS:
+        return replace(entry, remarks=(Remark(cells["kind"], f"{NO_REGISTERS[cells['kind']]} is not read back"),))
+    left: list[Remark] = []
+    return replace(entry, keys=_register(line, cells, file, left), remarks=tuple(left))
+
+
+def _register(line: int, cells: Cells, file: str, left: list[Remark]) -> dict[str, Any]:
+    if not re.fullmatch(r"[0-9]{1,5}", cells["address"]) or not cells["name"]:
+        message = f"{file}:{line}: a row needs a decimal address and a name, for example 40,Setpoint"
+        raise ValueError(message)
+    register: dict[str, Any] = {"at": int(cells["address"]), "name": cells["name"]}
+    if IDS.fullmatch(cells.get("id", "")) and cells["id"] != snake(cells["name"]):
+        register["id"] = cells["id"]
+    for column, text in cells.items():
+        if column in PASSED_OVER or not text.strip("{}"):
+            continue
+        keys = KEYS[column](cells) if column in KEYS else None
+        if keys is None:
+            left.append(_left_out(column, text))
+        else:
+            register |= keys
+    keys, in_words = more(cells.get("more", ""))
+    left += [_left_out(key, str(value)) for key, value in in_words.items()]
+    return register | keys
+
+
+def _left_out(column: str, text: str) -> Remark:
+    return Remark(column, f"left out: {column} `{one_line(text)[:MOST_TEXT]}`", todo=True)
