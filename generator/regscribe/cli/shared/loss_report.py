@@ -1,15 +1,17 @@
 """What an export lost: as lines for people, as JSON, and as SARIF for hosts that show such results."""
 
 from collections import Counter
-from collections.abc import Iterator
+from collections.abc import Callable, Hashable, Iterable, Iterator, Sequence
 from dataclasses import asdict
-from itertools import groupby
+from typing import TypeVar
 
 from regscribe.cli.shared.diagnostic_text import count
 from regscribe.cli.shared.report_formats import as_sarif
 from regscribe.losses import Exported, Grade, Loss, worst_first
 from regscribe.model import Diagnostic, Severity, Span
 from regscribe.visible import json_text, safe
+
+K = TypeVar("K", bound=Hashable)
 
 FORMS = ("text", "json", "sarif")
 
@@ -34,19 +36,36 @@ def _lines(made: Exported, losses: tuple[Loss, ...], form: str, *, refused: bool
         tally = Counter(loss.grade for loss in losses)
         many = ", ".join(f"{tally[grade]} {grade.words}" for grade in Grade if tally[grade])
         yield f"{'nothing was exported: ' * refused}{form} cannot say everything: {many}"
-    for (grade, fact, done), some in _grouped(losses):
-        paths = list(dict.fromkeys(loss.register for loss in some))
-        named = ", ".join(paths[:MOST_NAMED])
-        more = f" and {len(paths) - MOST_NAMED} more" if len(paths) > MOST_NAMED else ""
-        yield f"  {grade.words}: {fact}: {done} ({count(len(paths), 'register')}: {named}{more})"
+    for grade, some in _by(losses, lambda loss: loss.grade):
+        if grade is Grade.COSMETIC:
+            yield f"  {grade.words}: {', '.join(fact for fact, _ in _by(some, lambda loss: loss.fact))}"
+            continue
+        for fact, alike in _by(some, lambda loss: loss.fact):
+            yield f"  {grade.words}: {fact}: {_done(alike)}{_registers(alike)}"
+    if losses:
+        yield "each register and each loss: --report json"
 
 
-def _grouped(losses: tuple[Loss, ...]) -> Iterator[tuple[tuple[Grade, str, str], list[Loss]]]:
-    def key(loss: Loss) -> tuple[Grade, str, str]:
-        return loss.grade, loss.fact, loss.done
+def _done(losses: Sequence[Loss]) -> str:
+    """What was done; of several things the first, as an example."""
+    every = list(dict.fromkeys(loss.done for loss in losses))
+    return every[0] if len(every) == 1 else f"for example {every[0]}"
 
-    for which, some in groupby(sorted(losses, key=key), key):
-        yield which, list(some)
+
+def _registers(losses: Sequence[Loss]) -> str:
+    paths = list(dict.fromkeys(loss.register for loss in losses if loss.register))
+    if not paths:
+        return ""
+    more = f" and {len(paths) - MOST_NAMED} more" if len(paths) > MOST_NAMED else ""
+    return f" ({count(len(paths), 'register')}: {', '.join(paths[:MOST_NAMED])}{more})"
+
+
+def _by(losses: Iterable[Loss], key: Callable[[Loss], K]) -> Iterator[tuple[K, list[Loss]]]:
+    """Losses by what the key says, in the order in which that first comes."""
+    found: dict[K, list[Loss]] = {}
+    for loss in losses:
+        found.setdefault(key(loss), []).append(loss)
+    yield from found.items()
 
 
 def _diagnostic(loss: Loss, form: str) -> Diagnostic:

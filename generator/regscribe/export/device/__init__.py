@@ -1,0 +1,120 @@
+"""One device for another program: what all formats share that poll or describe a device (docs/export.md).
+
+A format declares a `Target` and renders a `Device`; what it does not carry of a register's facts is told by itself.
+"""
+
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass, field
+
+from regscribe.export.device.facts import RESOLVED, Carries, Carry, device_losses, losses_of
+from regscribe.export.device.options import Place, Request, request_of
+from regscribe.export.device.points import Fits, LeftOutError, Point, Wire, point_of
+from regscribe.losses import Exported, Grade, Loss
+from regscribe.model import Model, Register, RegisterMap
+from regscribe.plugins import OptionError
+
+__all__ = [
+    "RESOLVED",
+    "Carries",
+    "Carry",
+    "Device",
+    "Fits",
+    "LeftOutError",
+    "Place",
+    "Point",
+    "Target",
+    "Wire",
+    "exported",
+]
+
+UNVERIFIED = "not verified with the real program"
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Target:
+    """A form of another program: its name, what it carries of each fact, which words it can read.
+
+    `verified` names the real program that read such an export in the project's tests, empty if none did. `placed`: it
+    says where the device answers.
+    """
+
+    name: str
+    carries: Carries
+    fits: Fits
+    verified: str = ""
+    placed: bool = True
+
+
+@dataclass(slots=True)
+class Device:
+    """A device to be rendered: its registers worked out for one state, and the losses, to which a format adds."""
+
+    request: Request
+    target: Target
+    points: tuple[Point, ...] = ()
+    losses: list[Loss] = field(default_factory=list)
+
+    @property
+    def model(self) -> Model:
+        """The model as it stands on the device."""
+        return self.request.model
+
+    @property
+    def register_map(self) -> RegisterMap:
+        """The map."""
+        return self.request.register_map
+
+    @property
+    def name(self) -> str:
+        """What the user calls it."""
+        return self.request.name
+
+    @property
+    def place(self) -> Place:
+        """Where it answers. Raises OptionError if nobody said it."""
+        if self.request.place is None:
+            message = f"--format {self.target.name} needs to know where the device answers: say it by --at"
+            raise OptionError(message)
+        return self.request.place
+
+    def lose(self, register: Register | str, fact: str, grade: Grade, done: str) -> None:
+        """Tell a loss of a register (by itself or its path; empty: of the whole device)."""
+        path = register if isinstance(register, str) else register.path
+        self.losses.append(Loss(path, fact, grade, done, self.model.name))
+
+
+Render = Callable[[Device], str | bytes | Mapping[str, str | bytes]]
+"""Makes the text of a device, or several by path."""
+
+
+def exported(target: Target, maps: Sequence[RegisterMap], options: Mapping[str, str], render: Render) -> Exported:
+    """Return the export of the one device that the options ask for. Raises OptionError."""
+    request = request_of(maps, options, target.name, placed=target.placed)
+    device = Device(request, target)
+    device.points = tuple(point for one in request.registers if (point := _point(one, device)) is not None)
+    if not device.points:
+        reasons = "; ".join(dict.fromkeys(loss.done for loss in device.losses)) or "the model has no registers"
+        message = f"{target.name} can say nothing of what was asked for: {reasons}"
+        raise OptionError(message)
+    device.losses += device_losses(request.register_map, request.model, target.carries)
+    made = render(device)
+    texts = made if isinstance(made, Mapping) else {"": made}
+    remark = f"verified with {target.verified}" if target.verified else UNVERIFIED
+    return Exported(texts, tuple(device.losses), (f"{target.name}: {remark}",))
+
+
+def _point(register: Register, device: Device) -> Point | None:
+    """Work out a register and tell its losses; None, with the reason told, where the form cannot say it."""
+    if register.reading.clears and register.path not in device.request.named:
+        done = "left out: reading it changes it; name it by --register to have it polled"
+        device.lose(register, "register", Grade.LOST, done)
+        return None
+    try:
+        point = point_of(register, device.request.known, device.target.carries, device.target.fits)
+    except LeftOutError as why:
+        device.lose(register, "register", Grade.LOST, f"left out: {why}")
+        return None
+    device.losses += losses_of(register, device.target.carries, device.model.name, point.view)
+    if point.written_otherwise and device.target.carries.get("write", Carry.NO) is not Carry.NO:
+        device.lose(register, "write", Grade.LOST, "read only: it is written in another form than it is read in")
+    return point

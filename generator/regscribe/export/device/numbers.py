@@ -1,0 +1,22 @@
+"""Exact numbers as text for formats that read a decimal number, most of them into a double."""
+
+from decimal import Context, Decimal
+from fractions import Fraction
+
+from regscribe.model import show
+
+DIGITS = 17
+"""Significant digits that tell every double from every other."""
+
+
+def decimal(number: Fraction) -> str:
+    """The number as decimal text without an exponent: exact where it has an end, else to 17 significant digits."""
+    text = show(number)
+    if "/" not in text:
+        return text
+    return format(Context(prec=DIGITS).divide(Decimal(number.numerator), Decimal(number.denominator)), "f")
+
+
+def is_exact(number: Fraction) -> bool:
+    """Whether `decimal` says it exactly."""
+    return "/" not in show(number)
