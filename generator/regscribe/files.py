@@ -8,6 +8,7 @@ import os
 import tempfile
 from collections.abc import Mapping, Sequence
 from contextlib import suppress
+from decimal import Decimal
 from pathlib import Path
 from typing import Any
 
@@ -87,7 +88,14 @@ def _text(dumper: yaml.SafeDumper, data: str) -> yaml.Node:
     return dumper.represent_scalar("tag:yaml.org,2002:str", data, style=None if plain else '"')
 
 
+def _number(dumper: yaml.SafeDumper, data: Decimal) -> yaml.Node:
+    """Write an exact number digit by digit, without an exponent."""
+    text = format(data, "f")
+    return dumper.represent_scalar("tag:yaml.org,2002:float" if "." in text else "tag:yaml.org,2002:int", text)
+
+
 _Dumper.add_representer(OneLine, _one_line)
+_Dumper.add_representer(Decimal, _number)
 _Dumper.add_representer(str, _text)
 
 

@@ -6,6 +6,7 @@ from textwrap import indent
 from typing import Any
 
 from regscribe.draft import Draft, Entry, Part
+from regscribe.draft.head import completed
 from regscribe.files import OneLine, dump
 from regscribe.model.identifiers import snake
 from regscribe.visible import safe
@@ -41,7 +42,7 @@ def text_of(draft: Draft, head: Mapping[str, Any]) -> Written:
     out = _Lines()
     for remark in draft.stated:
         out.add(f"# {safe(remark)}")
-    out.add(dump({**head, **draft.head}))
+    out.add(dump({**head, **completed(draft)}))
     _add_groups(out, draft)
     for part in (Part.COMMANDS, Part.COMPUTED):
         of_part = [entry for entry in draft.entries if entry.part is part and entry.keys is not None]

@@ -16,8 +16,9 @@ ROOT = Path(__file__).parents[3]
 pytestmark = pytest.mark.usefixtures("oven")
 
 GOOD = """
-from regscribe.model import Diagnostic, Severity, Span
-from regscribe.plugins import Option, OptionError
+from regscribe.draft import Draft, Entry, Remark, refused
+from regscribe.model import Span
+from regscribe.plugins import Likeness, Option, OptionError
 
 class Lists:
     name = "lists"
@@ -36,14 +37,22 @@ class Lists:
 class Lines:
     name = "lists"
     summary = "one name a line"
+    options = (Option("first", "address of the first name", default="0"),)
 
-    def read(self, data, name):
+    def likeness(self, data, name):
+        return Likeness.SURE if name.endswith(".lists") else Likeness.NO
+
+    def read(self, data, name, options):
         if not data:
-            return "", (Diagnostic("lists", "nothing is in it", Span(name)),)
-        rows = "".join(f"      - {{at: {i}, name: {n}}}\\n" for i, n in enumerate(data.decode().split()))
-        note = Diagnostic("lists", "addresses are counted", Span(name), severity=Severity.WARNING)
-        return ("models: {M1: {}}\\ngroups:\\n  - id: all\\n    name: All\\n    each: {access: r}\\n    registers:\\n"
-                + rows), (note,)
+            return refused(name, "nothing is in it", rule="lists")
+        if not options["first"].isdecimal():
+            raise OptionError("--first: write a whole number")
+        names = data.decode().split()
+        return Draft(entries=tuple(
+            Entry(name=word, place=Span(name, line, 1, line, 1),
+                  keys=None if word == "?" else {"at": line - 1 + int(options["first"]), "name": word, "access": "r"},
+                  remarks=(Remark("no-name", "the name is ?"),) if word == "?" else ())
+            for line, word in enumerate(names, start=1)))
 
 lists, lines = Lists(), Lines()
 """
@@ -101,28 +110,61 @@ def test_what_an_exporter_cannot_do_is_wrong_usage(cli: Callable[..., Any], argu
 
 
 @pytest.mark.usefixtures("lists")
-def test_an_installed_importer_begins_a_map(cli: Callable[..., Any]) -> None:
+def test_an_installed_importer_recognises_its_files_and_makes_a_map(cli: Callable[..., Any]) -> None:
     Path("names.lists").write_text("Level Speed")
-    done = cli("new", "acme/pump", "--from", "names.lists")
-    assert done.code == 0
-    assert "warning[lists]: addresses are counted" in done.err
+    done = cli("import", "names.lists", "--first", "7", "--as", "acme/pump", "-o", "maps/acme/pump.yaml")
+    assert (done.code, done.out) == (0, "")
+    assert "2 rows: 2 whole, 0 with loss, 0 left out" in done.err
     assert cli("check", "acme/pump").code == 0
-    assert "1,1,,r,integer" in cli("export", "acme/pump", "--format", "csv").out
+    assert "holding,8,1,,r,integer" in cli("export", "acme/pump", "--format", "csv").out
+
+
+@pytest.mark.usefixtures("lists")
+def test_what_an_importer_leaves_out_is_told_with_its_reason(cli: Callable[..., Any]) -> None:
+    Path("names.lists").write_text("Level ?")
+    done = cli("import", "names.lists")
+    assert done.code == 1
+    assert "names.lists:2:1: ?: left out: no-name: the name is ?" in done.err
+    assert "{at: 0, name: Level, access: r}" in done.out
 
 
 @pytest.mark.usefixtures("lists")
 def test_what_an_importer_finds_wrong_writes_nothing(cli: Callable[..., Any]) -> None:
     Path("names.txt").write_text("")
-    done = cli("new", "acme/pump", "--from", "names.txt", "--format", "lists")
+    done = cli("import", "names.txt", "--format", "lists", "-o", "maps/acme/pump.yaml")
     assert done.code == 1
-    assert "error[lists]: nothing is in it" in done.err
+    assert "nothing is in it" in done.err
     assert not Path("maps/acme/pump.yaml").exists()
-    assert "as csv or lists" in cli("new", "acme/pump", "--from", "names.txt").err
+    done = cli("import", "names.txt")
+    assert done.code == 2
+    assert "nothing here reads names.txt: say with --format what it is" in done.err
+
+
+@pytest.mark.usefixtures("lists")
+def test_an_option_of_another_importer_is_wrong_usage(cli: Callable[..., Any]) -> None:
+    Path("names.lists").write_text("Level")
+    Path("names.csv").write_text("address,name,access\n")
+    assert cli("import", "names.lists", "--first", "x").code == 2
+    done = cli("import", "names.csv", "--format", "csv", "--first", "1")
+    assert done.code == 2
+    assert "--first: the format csv takes no such option" in done.err
+
+
+def test_the_importer_of_the_docs_works(cli: Callable[..., Any], install: Install) -> None:
+    page = (ROOT / "docs" / "plugins.md").read_text(encoding="utf-8")
+    code = next(code for code in re.findall(r"```python\n(\"\"\".*?)```", page, re.DOTALL) if "def read(" in code)
+    (point,) = re.findall(r'importers"\]\n(.*?)\n```', page)
+    install(code, distribution="acme-points", importers=point.replace('"', ""))
+    Path("oven.points").write_text("40001 Setpoint\n40002 Mode\nsee manual Bias\n")
+    done = cli("import", "oven.points", "--from-one", "yes")
+    assert done.code == 1
+    assert "{at: 0, name: Setpoint, access: r}" in done.out
+    assert "oven.points:3:1: see manual Bias: left out: address-unclear: " in done.err
 
 
 def test_the_exporter_of_the_docs_works(cli: Callable[..., Any], install: Install) -> None:
     page = (ROOT / "docs" / "plugins.md").read_text(encoding="utf-8")
-    (code,) = re.findall(r"```python\n(\"\"\".*?)```", page, re.DOTALL)
+    code = next(code for code in re.findall(r"```python\n(\"\"\".*?)```", page, re.DOTALL) if "def export(" in code)
     (point,) = re.findall(r'exporters"\]\n(.*?)\n```', page)
     install(code, distribution="acme-addresses", exporters=point.replace('"', ""))
     assert cli("export", "--format", "addresses", "--base", "40001", "--out", "lists").code == 0
@@ -177,13 +219,23 @@ def test_an_exporter_that_breaks_is_told_by_name(cli: Callable[..., Any], instal
 
 @pytest.mark.parametrize("result", ["None", "('', [1])", "b''.x"])
 def test_an_importer_that_breaks_is_told_by_name(cli: Callable[..., Any], install: Install, result: str) -> None:
-    code = f"name, summary = 'bad', ''\ndef read(data, name):\n    return {result}\n"
+    code = (
+        "name, summary, options = 'bad', '', ()\ndef likeness(data, name):\n    return 2\n"
+        f"def read(data, name, options):\n    return {result}\n"
+    )
     install(code, importers="bad = acme_lists")
     Path("a.bad").write_text("")
-    done = cli("new", "acme/pump", "--from", "a.bad")
+    done = cli("import", "a.bad", "-o", "maps/acme/pump.yaml")
     assert done.code == 1
     assert "the importer bad of acme-lists 1.2 is broken" in done.err
     assert not Path("maps/acme/pump.yaml").exists()
+
+
+def test_an_importer_that_recognises_nothing_disturbs_no_other(cli: Callable[..., Any], install: Install) -> None:
+    code = "name, summary, options = 'bad', '', ()\ndef likeness(data, name):\n    return 1 / 0\ndef read(*_): ...\n"
+    install(code, importers="bad = acme_lists")
+    Path("table.csv").write_text(cli("export", "--format", "csv").out)
+    assert cli("import", "table.csv").code == 0
 
 
 def test_nothing_that_a_plugin_says_is_obeyed_by_a_terminal(cli: Callable[..., Any], install: Install) -> None:
@@ -226,7 +278,7 @@ def test_entry_points_that_cannot_be_read_are_told_where_a_plugin_is_asked_for(
 ) -> None:
     install("", exporters="no equals sign")
     Path("table.csv").write_text("")
-    for arguments in ("export --format csv", "new acme/pump --from table.csv"):
+    for arguments in ("export --format csv", "import table.csv"):
         done = cli(*arguments.split())
         assert done.code == 1
         assert "the entry points of some installed package cannot be read" in done.err
@@ -237,15 +289,16 @@ def test_an_installation_without_entry_points_is_told(cli: Callable[..., Any], m
     monkeypatch.setattr(plugins, "entry_points", lambda **_: EntryPoints())
     assert "install regscribe anew" in cli("export", "--format", "csv").err
     Path("table.csv").write_text("")
-    assert "nothing imports table.csv" in cli("new", "acme/pump", "--from", "table.csv").err
+    assert "no importer is installed" in cli("import", "table.csv").err
 
 
 def test_the_builtin_plugins_are_declared_as_any_other() -> None:
-    assert plugins.names(plugins.EXPORTERS) == ("collectd", "csv", "json")
-    assert plugins.names(plugins.IMPORTERS) == ("csv",)
+    assert {"collectd", "csv", "json"} <= {*plugins.names(plugins.EXPORTERS)}
+    assert "csv" in plugins.names(plugins.IMPORTERS)
     for name in plugins.names(plugins.EXPORTERS):
         assert plugins.exporter(name).name == name
-    assert plugins.importer("csv").name == "csv"
+    for name in plugins.names(plugins.IMPORTERS):
+        assert plugins.importer(name).name == name
 
 
 def test_an_entry_point_without_a_distribution_has_an_owner_too(monkeypatch: pytest.MonkeyPatch) -> None:

@@ -1,7 +1,7 @@
 """The importer of CSV: a table of registers, in the columns of the export, becomes the groups of a new map.
 
-A cell that states a plain value becomes a key. Any other (a scale under a condition, a limit in words) is left out
-and reported, never guessed.
+A cell that states a plain value becomes a key. What is said in words only (a limit that depends) is left out and told;
+a register whose scale is said so is raw, and one whose place, type, order or condition is, is left out.
 """
 
 import re
@@ -10,12 +10,13 @@ from dataclasses import replace
 from typing import Any
 
 from regscribe.draft import Draft, Entry, Remark, refused
+from regscribe.draft.numbers import unscaled
 from regscribe.emit.words import one_line
 from regscribe.evidence.columns import choose
 from regscribe.evidence.table import TableError
 from regscribe.evidence.table import read as read_table
 from regscribe.files import OneLine
-from regscribe.importers.own_csv.further import more
+from regscribe.importers.own_csv.further import NEEDED, SCALING, more
 from regscribe.importers.own_csv.keys import KEYS, Cells
 from regscribe.model import Span
 from regscribe.model.identifiers import snake
@@ -30,6 +31,9 @@ PASSED_OVER = frozenset({"map", "model", "id", "words", "group", "unit_id", "mor
 
 NO_REGISTERS = {"command": "a command", "computed": "a computed value"}
 """Kinds of rows that are no registers, in words."""
+
+CRUCIAL = frozenset({"space", "type", "access", "kind", "file", "queue", "block", "page", "exists"}) | NEEDED
+"""What says where a number stands, how, and when: without it the number would be a wrong one."""
 
 MOST_TEXT = 60
 """Characters of a cell that are shown."""
@@ -108,29 +112,41 @@ def _entry(line: int, cells: Cells, file: str) -> Entry:
     entry = Entry(name=cells["name"], place=Span(file, line, 1, line, 1), group=_group(cells))
     if cells.get("kind") in NO_REGISTERS:
         return replace(entry, remarks=(Remark(cells["kind"], f"{NO_REGISTERS[cells['kind']]} is not read back"),))
-    left: list[Remark] = []
-    return replace(entry, keys=_register(line, cells, file, left), remarks=tuple(left))
-
-
-def _register(line: int, cells: Cells, file: str, left: list[Remark]) -> dict[str, Any]:
     if not re.fullmatch(r"[0-9]{1,5}", cells["address"]) or not cells["name"]:
-        message = f"{file}:{line}: a row needs a decimal address and a name, for example 40,Setpoint"
-        raise ValueError(message)
-    register: dict[str, Any] = {"at": int(cells["address"]), "name": cells["name"]}
+        return replace(entry, remarks=(Remark("address-unclear", f"no decimal address: {_shown(cells['address'])}"),))
+    keys, in_words = _register(cells)
+    if wrong := CRUCIAL & in_words.keys():
+        told = ", ".join(f"{column} {_shown(in_words[column])}" for column in sorted(wrong))
+        return replace(entry, remarks=(Remark("place-unclear", f"the number hangs on what is in words: {told}"),))
+    if "scale" in in_words or str(in_words.get("transmitted", "")).startswith(SCALING):
+        keys = unscaled(keys)
+    if "write" in in_words:
+        keys["access"] = "r"
+    return replace(entry, keys=keys, remarks=tuple(_left_out(*one) for one in in_words.items()))
+
+
+def _register(cells: Cells) -> tuple[dict[str, Any], dict[str, str]]:
+    """Return the keys of a register, and the columns and further keys that say something in words only."""
+    keys: dict[str, Any] = {"at": int(cells["address"]), "name": cells["name"]}
+    in_words: dict[str, str] = {}
     if IDS.fullmatch(cells.get("id", "")) and cells["id"] != snake(cells["name"]):
-        register["id"] = cells["id"]
+        keys["id"] = cells["id"]
     for column, text in cells.items():
         if column in PASSED_OVER or not text.strip("{}"):
             continue
-        keys = KEYS[column](cells) if column in KEYS else None
-        if keys is None:
-            left.append(_left_out(column, text))
+        found = KEYS[column](cells) if column in KEYS else None
+        if found is None:
+            in_words[column] = text
         else:
-            register |= keys
-    keys, in_words = more(cells.get("more", ""))
-    left += [_left_out(key, str(value)) for key, value in in_words.items()]
-    return register | keys
+            keys |= found
+    further, others = more(cells.get("more", ""))
+    return keys | further, in_words | {key: str(value) for key, value in others.items()}
 
 
 def _left_out(column: str, text: str) -> Remark:
-    return Remark(column, f"left out: {column} `{one_line(text)[:MOST_TEXT]}`", todo=True)
+    meant = {"scale": "; the number is raw", "write": "; read only here"}.get(column, "")
+    return Remark(f"{column.replace('_', '-')}-in-words", f"left out: {column} {_shown(text)}{meant}", todo=True)
+
+
+def _shown(text: str) -> str:
+    return f"`{one_line(text)[:MOST_TEXT]}`"

@@ -4,11 +4,13 @@ import re
 from collections.abc import Callable
 from typing import Any
 
+from regscribe.draft.numbers import plain
 from regscribe.evidence.cell_compare import number, objects
 from regscribe.files import OneLine
 
 ORDERS = ("big", "little")
-PLAIN_CODES = re.compile(r"(-?[0-9]{1,20}(\.\.-?[0-9]{1,20})?|nan|inf|-inf)")
+CODE = r"-?[0-9]{1,20}(?:\.[0-9]{1,20})?"
+PLAIN_CODES = re.compile(rf"{CODE}(\.\.{CODE})?|nan|inf|-inf")
 PLAIN_RANGE = re.compile(r"-?[0-9]+(\.[0-9]+)?\.\.-?[0-9]+(\.[0-9]+)?")
 FURTHER: dict[str, Callable[[object], bool]] = {
     "word_order": lambda value: value in ORDERS or isinstance(value, list),
@@ -28,6 +30,12 @@ FURTHER: dict[str, Callable[[object], bool]] = {
 }
 """The keys of the column `more` that a map takes as they are, with what a value must be."""
 
+NEEDED = frozenset({"word_order", "byte_order", "at", "byte", "layout", "text", "version"})
+"""Those that say how a number stands in its words: a register whose row says one in words only is left out."""
+
+SCALING = "stored value times"
+"""Begins what `transmitted` says of a factor."""
+
 
 def more(text: str) -> tuple[dict[str, Any], dict[str, object]]:
     """The keys that the column `more` says, and those that it says in words only."""
@@ -37,9 +45,10 @@ def more(text: str) -> tuple[dict[str, Any], dict[str, object]]:
         keys["sentinels"] = OneLine({_code(code): label for code, label in faults.items()})
     for key in {"delivered"} & keys.keys():
         value = number(str(keys[key]))
-        keys[key] = keys[key] if value is None else value.numerator if value.denominator == 1 else float(value)
+        keys[key] = keys[key] if value is None else plain(value)
     return keys, {key: value for key, value in found.items() if key not in keys}
 
 
 def _code(text: str) -> Any:  # noqa: ANN401 (a key of YAML)
-    return int(text) if re.fullmatch(r"-?[0-9]+", text) else text
+    value = number(text)
+    return text if value is None else plain(value)

@@ -2,17 +2,21 @@
 
 import re
 from collections.abc import Callable, Mapping
+from fractions import Fraction
 from typing import Any
 
+from regscribe.draft.numbers import plain, scaling
 from regscribe.evidence.cell_compare import access, number, objects
 from regscribe.files import OneLine
-from regscribe.model import Space, WireType, exact, show
+from regscribe.model import Space, WireType, show
 from regscribe_runtime.values.kinds import MOMENTS, Kind
 from regscribe_runtime.values.octets import KINDS
 
 Cells = Mapping[str, str]
 
-PLAIN_SCALE = re.compile(r"x/1(0{1,18})")
+FACTOR = r"[0-9.]+(?:/[0-9]+)?"
+LINE = re.compile(rf"(?:(-?{FACTOR})\*)?x(?:/([0-9]+))?(?: ([+-]) ({FACTOR}))?")
+"""`x/10`, `0.1*x - 40`: the value of a stored number by numbers alone."""
 NUMBERS = frozenset({"integer", "number", "raw"})
 BITS = frozenset({"coil", "discrete"})
 PLAIN_UNIT = re.compile(r"[^;:]+")
@@ -62,12 +66,10 @@ def _range(cells: Cells) -> dict[str, Any] | None:
 
 
 def _default(cells: Cells) -> dict[str, Any] | None:
+    if ": " in cells["default"]:
+        return None
     value = number(cells["default"])
-    if value is None:
-        return {"default": cells["default"]}
-    if value.denominator == 1:
-        return {"default": value.numerator}
-    return {"default": float(value)} if exact(float(value)) == value else None
+    return {"default": cells["default"] if value is None else plain(value)}
 
 
 def _values(cells: Cells) -> dict[str, Any] | None:
@@ -101,13 +103,19 @@ def _bits(cells: Cells) -> dict[str, Any] | None:
 def _scale(cells: Cells) -> dict[str, Any] | None:
     if cells["scale"] == "not stated":
         return {"decimals": "not_stated"}
-    found = PLAIN_SCALE.fullmatch(cells["scale"])
-    return {"decimals": len(found[1])} if found else None
+    found = LINE.fullmatch(cells["scale"])
+    if not found:
+        return None
+    factor, divisor, sign, distance = found.groups()
+    numbers = [number(factor or "1"), number(divisor or "1"), number(f"{sign or ''}{distance or 0}")]
+    multiply, divide, add = (Fraction(0) if one is None else one for one in numbers)
+    return scaling(multiply / divide, add) if multiply and divide else None
 
 
 def _kind(cells: Cells) -> dict[str, Any] | None:
     kind, of_bits = cells["kind"], cells.get("space", "") in BITS
-    if (kind == "boolean" and not of_bits) or (kind in NUMBERS and of_bits):
+    apart = kind == "integer" and bool(LINE.fullmatch(cells.get("scale", "")))
+    if (kind == "boolean" and not of_bits) or (kind in NUMBERS and of_bits) or apart:
         return {"kind": kind}
     told = cells["kind"] != "version" or "version" in (objects(cells.get("more", "")) or {})
     return {} if told and cells["kind"] != "fields" else None
