@@ -9,27 +9,35 @@ COVERING := tests/conformance/test_cases.py tests/regscribe/cli/test_commands.py
 	$(addprefix tests/regscribe/,source schema compose lower checks export) \
 	$(addprefix tests/runtime/,wire registers planning operations driver)
 
+# what needs no programs by others; and of that what takes no more than a few seconds
+OURS := not wire and not interop
+QUICK := not slow and $(OURS)
+
 .DEFAULT_GOAL := generate
-.PHONY: generate test test-all coverage test-wire test-versions check format bench conformance fuzz mutate sessions lock clean
+.PHONY: generate test test-all coverage test-wire test-interop test-versions check format bench conformance fuzz mutate sessions lock clean
 
 generate: $(INSTALLED) ## compile all maps; only what changed is written
 	@$(BIN)/regscribe generate
 
 test: $(INSTALLED) ## run the tests
-	$(BIN)/pytest -q -n 2 -m "not slow and not wire"
+	$(BIN)/pytest -q -n 2 -m "$(QUICK)"
 
 test-all: $(INSTALLED) ## run the tests, the slow ones too
-	$(BIN)/pytest -q -n 2 -m "not wire"
+	$(BIN)/pytest -q -n 2 -m "$(OURS)"
 
 test-wire: $(INSTALLED) ## let clients by others talk to the simulated devices; installs them (Debian packages, npm)
 	$(BIN)/python tests/system/independent_clients/install.py
 	$(BIN)/pytest -q -n 8 -m wire tests/system/independent_clients
 
+test-interop: $(INSTALLED) ## let the programs that exports are for read a simulated device; installs them (pip, npm, Debian packages)
+	$(BIN)/python tests/system/interop/install.py
+	$(BIN)/pytest -q -m interop tests/system/interop
+
 test-versions: ## run the tests of runtime and drivers with the oldest and newest pymodbus, on every Python that is here
 	$(PYTHON) tests/repository/versions.py
 
 coverage: $(INSTALLED) ## how much of generator/ the quick tests run, against the floor in pyproject.toml
-	@$(BIN)/pytest -q -n 2 -m "not slow and not wire" --cov --cov-report= $(COVERING)
+	@$(BIN)/pytest -q -n 2 -m "$(QUICK)" --cov --cov-report= $(COVERING)
 	@$(BIN)/coverage report --format=total
 	@$(BIN)/coverage report >/dev/null
 
