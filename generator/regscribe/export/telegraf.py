@@ -6,40 +6,16 @@ offset, and scaled values are floats unless `output` says otherwise.
 
 from collections.abc import Iterator, Mapping, Sequence
 
+from regscribe.dialects.telegraf import BIT, ORDERS, SPACES, TYPES
 from regscribe.export.device import RESOLVED, Carries, Carry, Device, Point, Target, Wire, exported
 from regscribe.export.device.options import DEVICE_OPTIONS
 from regscribe.losses import Exported, Grade
-from regscribe.model import Kind, Order, RegisterMap, Space, WireType, show
+from regscribe.model import Kind, RegisterMap, WireType, show
 from regscribe.visible import json_text
 
 name = "telegraf"
 summary = "a configuration of Telegraf's modbus input, metric style"
 options = DEVICE_OPTIONS
-
-SPACES = {
-    Space.HOLDING: "holding",
-    Space.INPUT: "input",
-    Space.COIL: "coil",
-    Space.DISCRETE: "discrete",
-}
-TYPES = {
-    WireType.INT16: "INT16",
-    WireType.UINT16: "UINT16",
-    WireType.INT32: "INT32",
-    WireType.UINT32: "UINT32",
-    WireType.INT64: "INT64",
-    WireType.UINT64: "UINT64",
-    WireType.FLOAT16: "FLOAT16",
-    WireType.FLOAT32: "FLOAT32",
-    WireType.FLOAT64: "FLOAT64",
-    WireType.STRING: "STRING",
-}
-ORDERS = {
-    (Order.BIG, Order.BIG): "ABCD",
-    (Order.LITTLE, Order.BIG): "CDAB",
-    (Order.BIG, Order.LITTLE): "BADC",
-    (Order.LITTLE, Order.LITTLE): "DCBA",
-}
 
 carries: Carries = RESOLVED | {
     **dict.fromkeys(("scale", "unit", "string", "boolean", "flags", "array", "group"), Carry.WHOLE),
@@ -124,7 +100,7 @@ def _fields(device: Device, point: Point) -> Iterator[dict[str, str]]:
         return
     if point.register.kind is Kind.FLAGS and point.words == 1:
         for flag in point.fields:
-            yield field | {"name": _quoted(f"{point.id}_{flag.id}"), "type": '"BIT"', "bit": str(flag.low)}
+            yield field | {"name": _quoted(f"{point.id}_{flag.id}"), "type": _quoted(BIT), "bit": str(flag.low)}
         return
     yield field | {"type": _quoted(TYPES[point.wire.type])} | _scale(device, point) | _length(point)
 
