@@ -52,6 +52,7 @@ ROOMS = {
     "losses": set[str](),
     "dialects": {"model"},
     "draft": {"model", "files", "visible"},
+    "planned_model": {"model", "reference", "checks", f"{RUNTIME}.planning"},
     "plugins": {"model", "visible", "draft", "losses"},
     "export": {"model", "dialects", "reference", "checks", "emit", "plugins", "visible", "losses"},
     "evidence": {"model", "emit", "export"},
@@ -64,6 +65,7 @@ ROOMS = {
     "tools": {"model", "source", "schema", "files", "visible", "emit", "pictures"} | WHOLE,
     "cli": {"model", "reference", "source", "schema", "compose", "lower", "checks", "emit", "pictures", "evidence"}
     | {"plugins", "simulate", "pipeline", "files", "tools", "map_files", "visible", "draft", "losses"}
+    | {"planned_model"}
     | WHOLE,
 }
 """Which other rooms a room may import, besides the vocabulary in `regscribe_runtime.values`."""

@@ -7,9 +7,9 @@ from typing import Any
 
 import pytest
 
-from regscribe.cli.shared.planned_model import PlannedModel
 from regscribe.export.collectd import export as collectd
 from regscribe.model import Access
+from regscribe.planned_model import PlannedModel
 from regscribe.plugins import OptionError
 from regscribe.simulate.device.device import SimulatedDevice
 from regscribe.simulate.errors import SimulatorError

@@ -16,9 +16,9 @@ from planning import subjects
 from rivals import Task, fixed_gap
 
 from regscribe.cli.shared.map_arguments import find_map
-from regscribe.cli.shared.planned_model import PlannedModel
 from regscribe.model import GivenKind
 from regscribe.pipeline import compile_map
+from regscribe.planned_model import PlannedModel
 from regscribe.simulate import SerialLine, simulate
 from regscribe.tools.live import catalogue
 from regscribe_runtime import RegscribeError

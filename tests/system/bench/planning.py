@@ -15,8 +15,8 @@ from rich.table import Table
 from rivals import GAPS, MODES, Task, fixed_gap
 
 from regscribe.cli.shared.map_arguments import find_maps
-from regscribe.cli.shared.planned_model import PlannedModel
 from regscribe.pipeline import compile_map
+from regscribe.planned_model import PlannedModel
 from regscribe_runtime.planning.cost import Cost, milliseconds
 from regscribe_runtime.planning.plan import blocks
 from regscribe_runtime.planning.read_places import read_places

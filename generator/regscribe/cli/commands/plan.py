@@ -10,11 +10,11 @@ from regscribe.cli.shared.compiled_maps import compiled_maps
 from regscribe.cli.shared.diagnostic_text import count
 from regscribe.cli.shared.map_arguments import find_map
 from regscribe.cli.shared.output import print_json, raised_as, refuse, remark, show_table, tell
-from regscribe.cli.shared.planned_model import PlannedModel
 from regscribe.cli.shared.target_options import base_option
 from regscribe.emit.words import span_words
 from regscribe.model import RegisterMap, parse
 from regscribe.model.located import arrays_in
+from regscribe.planned_model import PlannedModel
 from regscribe.tools.live.errors import unknown
 from regscribe_runtime.operations.prepared_read import laid_out
 from regscribe_runtime.planning import plan
@@ -79,7 +79,7 @@ def command(  # noqa: PLR0913 - one parameter an option
     wanted = _selected(subject, ids, groups, everything=everything)
     held = dict(_held(subject, text) for text in state)
     _refuse_fewer_packed(subject, held)
-    absent = subject.absent(register_map, held)
+    absent = subject.absent(subject.known(register_map, held))
     terms = subject.terms(_cost(subject, baud, form, framing, tcp=tcp), absent)
     gone = [path for path in wanted if path in absent]
     wanted = [path for path in wanted if path not in absent]

@@ -37,9 +37,12 @@ class PlannedModel:
         """The paths of all registers that are read where all are."""
         return [path for path, register in self.registers.items() if register.is_read_along]
 
-    def absent(self, register_map: compiled.RegisterMap, state: Mapping[str, Fraction]) -> frozenset[str]:
-        """The registers that do not exist while others hold `state`, else their defaults; in doubt one exists."""
-        known = surroundings_of(register_map, {}, with_fields(self.model, {**default_values(self.model), **state}))
+    def known(self, register_map: compiled.RegisterMap, state: Mapping[str, Fraction]) -> Surroundings:
+        """What is known of a device whose registers hold `state`, else their defaults."""
+        return surroundings_of(register_map, {}, with_fields(self.model, {**default_values(self.model), **state}))
+
+    def absent(self, known: Surroundings) -> frozenset[str]:
+        """The registers that do not exist as things stand; in doubt one exists."""
         asked = [one for one in self.registers.values() if not one.when.always]
         gone = {one.path for one in asked if not _may_hold(one.when, known)}
         while more := {one.path for one in asked if one.path not in gone and gone.intersection(one.when.registers)}:
