@@ -438,7 +438,7 @@ def test_a_step_is_sent_only_while_its_condition_holds(state: dict[str, int], ad
 def test_a_poll_leaves_out_what_does_not_exist() -> None:
     built = build(whole_map(PARTS))
     options = {"model": "A", "at": "h:502", "name": "", "unit": "1", "every": "1", "given": "", "base": ""}
-    texts = [export([built.map], {**options, "with": f"mode={mode}"})[""] for mode in (0, 1)]
+    texts = [export([built.map], {**options, "with": f"mode={mode}"}).texts[""] for mode in (0, 1)]
     assert ["left out: level - it exists only while" in text for text in texts] == [True, False]
 
 

@@ -1,11 +1,14 @@
 """The collectd export polls each number with the type, scale and order of one state of the device, or says why not."""
 
 from collections.abc import Callable
+from dataclasses import replace
 from fractions import Fraction
 
 import pytest
 
-from regscribe.export.collectd.configuration import Poll, collectd_text
+from regscribe.export.collectd import TARGET, collectd_text
+from regscribe.export.device import Device, Place, Request, device_of
+from regscribe.losses import Grade
 from regscribe.model import (
     Access,
     Case,
@@ -30,7 +33,7 @@ from regscribe.model import Is as Ask
 from regscribe.reference import Surroundings
 
 Only = Callable[[Register], RegisterMap]
-POLL = Poll(name="oven", unit=7, host="10.0.0.7", port=1502)
+PLACE = Place(unit=7, host="10.0.0.7", port=1502)
 NOTHING = Surroundings()
 
 
@@ -40,8 +43,14 @@ def register(wire: WireType = WireType.INT16, kind: Kind = Kind.NUMBER, **more: 
     return Register(at=0, id="level", path="level", name="Level", kind=kind, **settings)  # type: ignore[arg-type]  # keywords
 
 
-def text(register_map: RegisterMap, known: Surroundings = NOTHING, poll: Poll = POLL) -> str:
-    return collectd_text(register_map, register_map.models[0], poll, known)
+def device(register_map: RegisterMap, known: Surroundings = NOTHING, place: Place = PLACE) -> Device:
+    (model,) = register_map.models
+    asked = {"registers": model.registers, "named": frozenset(), "name": "oven", "unit": 7, "every": 10, "place": place}
+    return device_of(TARGET, Request(register_map=register_map, model=model, known=known, **asked))  # type: ignore[arg-type]  # keywords
+
+
+def text(register_map: RegisterMap, known: Surroundings = NOTHING, place: Place = PLACE) -> str:
+    return collectd_text(device(register_map, known, place))
 
 
 def block(register_map: RegisterMap, known: Surroundings = NOTHING) -> list[str]:
@@ -71,8 +80,7 @@ def test_the_device_is_named_once_with_all_that_is_collected(only: Only) -> None
 
 
 def test_a_serial_device_has_a_speed(only: Only) -> None:
-    poll = Poll(name="oven", unit=7, device='/dev/tty"USB', baud=19200)
-    found = text(only(register()), poll=poll)
+    found = text(only(register()), place=Place(unit=7, device='/dev/tty"USB', baud=19200))
     assert 'Device "/dev/tty\\"USB"' in found
     assert "Baudrate 19200" in found
     assert "Address" not in found
@@ -83,7 +91,7 @@ def test_a_serial_device_has_a_speed(only: Only) -> None:
     [
         (Fraction(1, 10), Fraction(0), "Scale 0.1", None),
         (Fraction(1, 10), Fraction(-19999, 10), "Scale 0.1", "Shift -1999.9"),
-        (Fraction(1, 3), Fraction(0), "Scale 0.3333333333333333", None),
+        (Fraction(1, 3), Fraction(0), "Scale 0.33333333333333333", None),
         (Fraction(1, 10**7), Fraction(0), "Scale 0.0000001", None),
     ],
 )
@@ -113,7 +121,7 @@ def test_the_word_order_is_that_of_the_state(only: Only) -> None:
     shared = only(register(views=(view,)))
     assert "RegisterType Float" in block(shared, Surroundings({"order": Fraction(0)}))
     assert {"RegisterType FloatLE", "RegisterCmd ReadInput"} <= set(block(shared, Surroundings({"order": Fraction(1)})))
-    assert "left out: level - its word order depends on order" in text(shared)
+    assert "left out: level - its order depends on order" in text(shared)
 
 
 def test_the_preferred_view_counts_with_its_factor(only: Only) -> None:
@@ -124,14 +132,15 @@ def test_the_preferred_view_counts_with_its_factor(only: Only) -> None:
 
 def test_a_type_that_the_plugin_does_not_read_is_left_out_with_the_reason(only: Only) -> None:
     double = register(WireType.FLOAT64)
-    assert "left out: level - the plugin does not read float64 in the holding space" in text(only(double))
+    assert "left out: level - the format does not read float64 in the holding space" in text(only(double))
     view = register(WireType.INT64).base._replace(order=Order.LITTLE)
     swapped = register(WireType.INT64, Kind.INTEGER, views=(view,))
-    assert "no int64 with the least significant word first" in text(only(swapped))
+    assert "not read int64 in the holding space with the least significant word first" in text(only(swapped))
 
 
 def test_texts_are_no_numbers_and_faults_are_remarked(only: Only) -> None:
-    assert "level" not in text(only(register(WireType.STRING, Kind.STRING)))
+    left_out = "  # left out: level - it is a string, which the format does not have"
+    assert left_out in text(only(register(WireType.STRING, Kind.STRING))).splitlines()
     faulty = register(sentinels=(Sentinel(Fraction(-32768), "LOW", "sensor\nlow"),))
     assert any(line.startswith("# no value") and "sensor low" in line for line in block(only(faulty)))
 
@@ -146,3 +155,34 @@ def test_a_view_whose_factor_nobody_knows_is_left_out(only: Only) -> None:
     view = View("base", WireType.INT16, offset=9, times=Power(Ref("places")))
     assert "its scale depends on places" in text(only(register(views=(view,))))
     assert "Scale 0.1" in block(only(register(views=(view,))), Surroundings({"places": Fraction(1)}))
+
+
+def losses(found: Device) -> dict[str, tuple[Grade, str]]:
+    collectd_text(found)
+    return {loss.fact: (loss.grade, loss.done) for loss in found.losses}
+
+
+def test_a_fault_word_that_is_taken_for_a_number_is_wrong(only: Only) -> None:
+    faulty = register(sentinels=(Sentinel(Fraction(-32768), "LOW", "sensor low"),))
+    assert losses(device(only(faulty)))["sentinel"] == (Grade.WRONG, "left out: fault words: -32768 = sensor low")
+
+
+def test_a_scale_without_a_finite_decimal_is_told_to_be_rounded(only: Only) -> None:
+    third = register(scale=always(Conversion(multiply=Fraction(1, 3))))
+    assert losses(device(only(third)))["scale-rounded"][0] is Grade.COSMETIC
+    quarter = register(scale=always(Conversion(multiply=Fraction(1, 4))))
+    assert "scale-rounded" not in losses(device(only(quarter)))
+
+
+def test_a_line_that_the_plugin_does_not_speak_is_told(only: Only) -> None:
+    found = losses(device(only(register()), place=Place(unit=7, device="/dev/ttyUSB0", format="8E1")))
+    assert found["serial-line"][0] is Grade.WRONG
+    assert "8N1 only, and the line of the map is 8E1" in found["serial-line"][1]
+    assert "serial-line" not in losses(device(only(register())))
+
+
+def test_a_name_longer_than_collectd_keeps_is_left_out(only: Only) -> None:
+    name = "l" * 123
+    longest = replace(register(), id=name, path=name)  # oven. and 122 letters are 127
+    assert f"left out: {name} - its name has more than 127 characters" in text(only(longest))
+    assert f'<Data "oven.{name[1:]}">' in text(only(replace(longest, id=name[1:], path=name[1:])))

@@ -163,7 +163,7 @@ def test_collectd_polls_the_blocks_whose_base_is_stated(sun: Any) -> None:
 
     with pytest.raises(OptionError, match=r"registers stand in blocks \(common, inverter, spare, table\)"):
         collectd([sun.map], options)
-    text = collectd([sun.map], options | {"base": "spare=500"})[""]
+    text = collectd([sun.map], options | {"base": "spare=500"}).texts[""]
     assert "RegisterBase 503" in text
     assert "limit" in text
     assert "power" not in text

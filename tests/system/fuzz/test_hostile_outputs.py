@@ -21,8 +21,9 @@ import yaml
 
 from regscribe.cli.shared import output
 from regscribe.emit import python
-from regscribe.export.collectd.configuration import Poll, collectd_text
+from regscribe.export.collectd import TARGET, collectd_text
 from regscribe.export.csv import csv_text
+from regscribe.export.device import Place, Request, device_of
 from regscribe.model import RegisterMap
 from regscribe.pipeline import compile_map
 from regscribe.reference import Surroundings
@@ -156,8 +157,20 @@ def test_the_csv_export_of_hostile_text_holds_no_formula(maps: list[RegisterMap]
 
 def test_a_collectd_configuration_of_hostile_text_holds_its_own_directives_only(maps: list[RegisterMap]) -> None:
     for register_map in maps:
-        poll = Poll(name=register_map.title, unit=1, host=register_map.title)
-        text = collectd_text(register_map, register_map.models[0], poll, Surroundings())
+        place = Place(unit=1, host=register_map.title)
+        model = register_map.models[0]
+        request = Request(
+            register_map=register_map,
+            model=model,
+            registers=model.registers,
+            named=frozenset(),
+            known=Surroundings(),
+            unit=1,
+            name=register_map.title,
+            every=10,
+            place=place,
+        )
+        text = collectd_text(device_of(TARGET, request))
         assert [line for line in text.split("\n") if not COLLECTD.fullmatch(line)] == []
 
 

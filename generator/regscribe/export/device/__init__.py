@@ -3,10 +3,10 @@
 A format declares a `Target` and renders a `Device`; what it does not carry of a register's facts is told by itself.
 """
 
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
 
-from regscribe.export.device.facts import RESOLVED, Carries, Carry, device_losses, losses_of
+from regscribe.export.device.facts import CODES, RESOLVED, Carries, Carry, device_losses, losses_of
 from regscribe.export.device.options import Place, Request, request_of
 from regscribe.export.device.points import Fits, LeftOutError, Point, Wire, point_of
 from regscribe.losses import Exported, Grade, Loss
@@ -22,25 +22,34 @@ __all__ = [
     "LeftOutError",
     "Place",
     "Point",
+    "Request",
     "Target",
     "Wire",
+    "device_of",
     "exported",
 ]
 
+LEFT_OUT = "register"
 UNVERIFIED = "not verified with the real program"
+
+
+def _nothing(_: Point, __: Request) -> str:
+    return ""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Target:
     """A form of another program: its name, what it carries of each fact, which words it can read.
 
-    `verified` names the real program that read such an export in the project's tests, empty if none did. `placed`: it
-    says where the device answers.
+    `refuses` says why it leaves out a register whose words it can read (nothing: it does not). `verified` names the
+    real program that read such an export in the project's tests, empty if none did. `placed`: it says where the device
+    answers.
     """
 
     name: str
     carries: Carries
     fits: Fits
+    refuses: Callable[[Point, Request], str] = _nothing
     verified: str = ""
     placed: bool = True
 
@@ -77,8 +86,17 @@ class Device:
             raise OptionError(message)
         return self.request.place
 
+    def each(self) -> Iterator[Point | Loss]:
+        """Every register that was asked for, in the order of the map: a point, or the loss of all of it."""
+        points = {point.register.path: point for point in self.points}
+        lost = {loss.register: loss for loss in self.losses if loss.fact == LEFT_OUT}
+        yield from (points.get(one.path) or lost[one.path] for one in self.request.registers)
+
     def lose(self, register: Register | str, fact: str, grade: Grade, done: str) -> None:
-        """Tell a loss of a register (by itself or its path; empty: of the whole device)."""
+        """Tell a loss, by its fact or code, of a register (by itself or its path; empty: of the whole device)."""
+        if fact not in CODES:
+            message = f"`{fact}` is none of the facts and codes of losses"
+            raise KeyError(message)
         path = register if isinstance(register, str) else register.path
         self.losses.append(Loss(path, fact, grade, done, self.model.name))
 
@@ -89,30 +107,38 @@ Render = Callable[[Device], str | bytes | Mapping[str, str | bytes]]
 
 def exported(target: Target, maps: Sequence[RegisterMap], options: Mapping[str, str], render: Render) -> Exported:
     """Return the export of the one device that the options ask for. Raises OptionError."""
-    request = request_of(maps, options, target.name, placed=target.placed)
-    device = Device(request, target)
-    device.points = tuple(point for one in request.registers if (point := _point(one, device)) is not None)
+    device = device_of(target, request_of(maps, options, target.name, placed=target.placed))
     if not device.points:
         reasons = "; ".join(dict.fromkeys(loss.done for loss in device.losses)) or "the model has no registers"
         message = f"{target.name} can say nothing of what was asked for: {reasons}"
         raise OptionError(message)
-    device.losses += device_losses(request.register_map, request.model, target.carries)
     made = render(device)
     texts = made if isinstance(made, Mapping) else {"": made}
     remark = f"verified with {target.verified}" if target.verified else UNVERIFIED
     return Exported(texts, tuple(device.losses), (f"{target.name}: {remark}",))
 
 
+def device_of(target: Target, request: Request) -> Device:
+    """Return the device that was asked for, with the losses that follow from what the target declares."""
+    device = Device(request, target)
+    device.points = tuple(point for one in request.registers if (point := _point(one, device)) is not None)
+    device.losses += device_losses(request.register_map, request.model, target.carries)
+    return device
+
+
 def _point(register: Register, device: Device) -> Point | None:
     """Work out a register and tell its losses; None, with the reason told, where the form cannot say it."""
     if register.reading.clears and register.path not in device.request.named:
         done = "left out: reading it changes it; name it by --register to have it polled"
-        device.lose(register, "register", Grade.LOST, done)
+        device.lose(register, LEFT_OUT, Grade.LOST, done)
         return None
     try:
         point = point_of(register, device.request.known, device.target.carries, device.target.fits)
     except LeftOutError as why:
-        device.lose(register, "register", Grade.LOST, f"left out: {why}")
+        device.lose(register, LEFT_OUT, Grade.LOST, f"left out: {why}")
+        return None
+    if why_not := device.target.refuses(point, device.request):
+        device.lose(register, LEFT_OUT, Grade.LOST, f"left out: {why_not}")
         return None
     device.losses += losses_of(register, device.target.carries, device.model.name, point.view)
     if point.written_otherwise and device.target.carries.get("write", Carry.NO) is not Carry.NO:

@@ -11,7 +11,7 @@ from typing import NamedTuple
 
 from regscribe.emit.words import condition_words, conversion_words, one_line, order_words, range_words, sentinel_words
 from regscribe.losses import Grade, Loss
-from regscribe.model import IDENTITY, Cases, Kind, Model, Number, OrderCases, Range, Register, RegisterMap, View
+from regscribe.model import IDENTITY, Cases, Kind, Model, Number, OrderCases, Range, Register, RegisterMap, View, show
 from regscribe_runtime.values.kinds import MOMENTS
 from regscribe_runtime.values.terms import givens_in, registers_in
 from regscribe_runtime.values.views import scale_needs
@@ -194,7 +194,7 @@ FACTS = (
     Fact("range-register", "range by other registers", WRONG, ("range",), _range_register, "range"),
     Fact("range-union", "range with gaps", LOST, ("range",), _range_union, "range"),
     Fact("valid", "limits of a valid reading", LOST, ("valid",), _valid),
-    Fact("sentinel", "fault words", LOST, ("sentinels",), lambda one: _sentinels(one) if one.sentinels else ""),
+    Fact("sentinel", "fault words", WRONG, ("sentinels",), lambda one: _sentinels(one) if one.sentinels else ""),
     Fact("special-value", "special values beside the range", LOST, ("specials",), _said("specials", "special values")),
     Fact("enum", "codes with labels", LOST, ("enum",), _said("enum", "its codes have labels")),
     Fact("flags", "named bits", LOST, ("fields", "none"), _flags),
@@ -300,6 +300,12 @@ DEVICE_FACTS = (
         lambda one, _: f"{one.protocol.read_words} words in a request" if one.protocol.read_words < MOST_WORDS else "",
     ),
     DeviceFact(
+        "pause",
+        "pause between an answer and the next request",
+        LOST,
+        lambda one, _: f"{show(one.protocol.pause)} ms after each answer" if one.protocol.pause else "",
+    ),
+    DeviceFact(
         "errata", "errors of the manual", COSMETIC, lambda one, _: f"{len(one.errata)} errata" * bool(one.errata)
     ),
 )
@@ -319,6 +325,17 @@ RESOLVED: dict[str, Carry] = dict.fromkeys(
 
 
 BY_ID = {fact.id: fact for fact in FACTS}
+
+TOLD = {
+    "register": "the whole register",
+    "scale-rounded": "a scale without a finite decimal",
+    "precision-float32": "digits of numbers beyond what a float of 32 bits tells apart",
+    "serial-line": "speed and character format of the serial line",
+}
+"""What exporters tell by themselves, by code: what a form makes of a fact, which no fact alone decides."""
+
+CODES = frozenset({*BY_ID, *TOLD, *(fact.id for fact in DEVICE_FACTS)})
+"""The codes that a loss may have."""
 
 
 def losses_of(register: Register, carries: Carries, model: str = "", view: View | None = None) -> Iterator[Loss]:

@@ -41,6 +41,9 @@ LONGEST_INTERVAL = 10**9
 CALLED = re.compile(r"[A-Za-z0-9][A-Za-z0-9._-]{0,39}")
 """What a device may be called: programs make files and topics of it."""
 
+EIGHT_N_ONE = "8N1"
+"""The character format that is meant where a program of the field knows no other."""
+
 NUMBER = re.compile(r"-?[0-9]{1,20}(\.[0-9]{1,20})?")
 """A decimal of a sane length: an exponent may ask for more digits than there is memory."""
 
@@ -58,7 +61,7 @@ class Place:
     port: int = 502
     device: str = ""
     baud: int = 9600
-    format: str = "8N1"
+    format: str = EIGHT_N_ONE
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)

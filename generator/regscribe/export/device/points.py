@@ -174,6 +174,7 @@ def _read(register: Register, known: Surroundings, fits: Fits) -> tuple[View, Wi
     for view in usable:
         with _needs("its order"):
             order = word_order(view, known) if view.space.is_words else AS_IS
+        with _needs("its scale"):
             present = present_view(view, known)
         if order is not None and present is not None:
             tried.append(Wire(view.space, view.type, *_plain(order, view), apart=view.is_apart))
