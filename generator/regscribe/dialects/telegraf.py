@@ -28,6 +28,9 @@ BYTES: Mapping[str, tuple[WireType, str]] = {
 }
 """Types of one byte of a word, and which byte it is."""
 
+LOCATIONS: Mapping[str, str] = {"": "both", "low": "lower", "high": "upper"}
+"""Which bytes of its words a text takes: all, or one of each word; a connection has one."""
+
 TABLES: Mapping[str, Space] = {
     "holding_registers": Space.HOLDING,
     "input_registers": Space.INPUT,

@@ -6,6 +6,8 @@ from fractions import Fraction
 
 import pytest
 
+from regscribe import plugins
+from regscribe.losses import Exported
 from regscribe.model import (
     Access,
     Array,
@@ -208,3 +210,42 @@ def only(device: RegisterMap) -> Callable[[Register], RegisterMap]:
         return replace(device, models=(model,))
 
     return build
+
+
+Export = Callable[..., Exported]
+
+
+@pytest.fixture
+def export(model_of: Callable[[str], RegisterMap]) -> Export:
+    """What an exporter makes of the text of a map: `export("telegraf", text, at="h:502", unit="7")`."""
+
+    def made(name: str, text: str, /, **options: str) -> Exported:
+        known = {option.name: option.default for option in plugins.exporter(name).options}
+        given = {key.rstrip("_"): value for key, value in options.items()}
+        assert not given.keys() - known.keys(), f"{name} has the options {', '.join(known)}"
+        return plugins.export(name, [model_of(text)], known | given)
+
+    return made
+
+
+@pytest.fixture
+def exported_text(export: Export) -> Callable[..., str]:
+    """The one text of an export, arguments as of `export`."""
+
+    def text(name: str, text: str, /, **options: str) -> str:
+        (one,) = export(name, text, **options).texts.values()
+        assert isinstance(one, str)
+        return one
+
+    return text
+
+
+@pytest.fixture
+def lost() -> Callable[[Exported], set[tuple[str, str, str]]]:
+    """Losses as register, fact and grade, for sets: but for those that every register has (its name, its source)."""
+    usual = {"name", "symbol", "source", "group", "description"}
+
+    def losses(made: Exported) -> set[tuple[str, str, str]]:
+        return {(one.register, one.fact, one.grade.name) for one in made.losses if one.fact not in usual}
+
+    return losses

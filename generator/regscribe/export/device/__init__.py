@@ -6,12 +6,14 @@ A format declares a `Target` and renders a `Device`; what it does not carry of a
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
 
+from regscribe.emit.words import one_line
 from regscribe.export.device.facts import CODES, RESOLVED, Carries, Carry, device_losses, losses_of
 from regscribe.export.device.options import Place, Request, request_of
 from regscribe.export.device.points import Fits, LeftOutError, Point, Wire, point_of
 from regscribe.losses import Exported, Grade, Loss
 from regscribe.model import Model, Register, RegisterMap
 from regscribe.plugins import OptionError
+from regscribe.visible import safe
 
 __all__ = [
     "RESOLVED",
@@ -53,6 +55,11 @@ class Target:
     verified: str = ""
     placed: bool = True
 
+    @property
+    def remark(self) -> str:
+        """Whether a real program ever read such an export, in words."""
+        return f"verified with {self.verified}" if self.verified else UNVERIFIED
+
 
 @dataclass(slots=True)
 class Device:
@@ -92,6 +99,13 @@ class Device:
         lost = {loss.register: loss for loss in self.losses if loss.fact == LEFT_OUT}
         yield from (points.get(one.path) or lost[one.path] for one in self.request.registers)
 
+    @property
+    def heading(self) -> tuple[str, ...]:
+        """What stands above an export, as comments where a format has any: what it was made of."""
+        what = f"{one_line(self.register_map.title)}, model {one_line(self.model.name)}, map {self.register_map.id}"
+        state = "for one state of the device: the defaults of the map and what was stated beside them"
+        return safe(what), state, f"{self.target.name}: {self.target.remark}"
+
     def lose(self, register: Register | str, fact: str, grade: Grade, done: str) -> None:
         """Tell a loss, by its fact or code, of a register (by itself or its path; empty: of the whole device)."""
         if fact not in CODES:
@@ -114,8 +128,7 @@ def exported(target: Target, maps: Sequence[RegisterMap], options: Mapping[str, 
         raise OptionError(message)
     made = render(device)
     texts = made if isinstance(made, Mapping) else {"": made}
-    remark = f"verified with {target.verified}" if target.verified else UNVERIFIED
-    return Exported(texts, tuple(device.losses), (f"{target.name}: {remark}",))
+    return Exported(texts, tuple(device.losses), (f"{target.name}: {target.remark}",))
 
 
 def device_of(target: Target, request: Request) -> Device:
@@ -137,10 +150,18 @@ def _point(register: Register, device: Device) -> Point | None:
     except LeftOutError as why:
         device.lose(register, LEFT_OUT, Grade.LOST, f"left out: {why}")
         return None
-    if why_not := device.target.refuses(point, device.request):
+    if why_not := device.target.refuses(point, device.request) or _too_long(point, device):
         device.lose(register, LEFT_OUT, Grade.LOST, f"left out: {why_not}")
         return None
     device.losses += losses_of(register, device.target.carries, device.model.name, point.view)
     if point.written_otherwise and device.target.carries.get("write", Carry.NO) is not Carry.NO:
         device.lose(register, "write", Grade.LOST, "read only: it is written in another form than it is read in")
     return point
+
+
+def _too_long(point: Point, device: Device) -> str:
+    """Why a program that polls cannot read a point at all: it reads each in one request."""
+    most = device.register_map.protocol.most_read(point.wire.space)
+    if not device.target.placed or point.words <= most:
+        return ""
+    return f"it has {point.words} words, of which the device answers {most} in a request"

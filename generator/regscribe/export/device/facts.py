@@ -103,6 +103,17 @@ def _valid(register: Register) -> str:
     return f"a reading is valid within {range_words(register.valid[0].then)}" if register.valid else ""
 
 
+def _saturates(register: Register) -> str:
+    clipped = any(view.saturates for view in register.views)
+    return "the lowest and the highest number on the wire stand for values beyond them" if clipped else ""
+
+
+def _padding(register: Register) -> str:
+    if register.kind is not Kind.STRING:
+        return ""
+    return f"what fills it up (0x{register.text.padding:02X}) and what follows its end are part of the text"
+
+
 def _sentinels(register: Register) -> str:
     return f"fault words: {', '.join(one_line(sentinel_words(one)) for one in register.sentinels)}"
 
@@ -194,6 +205,7 @@ FACTS = (
     Fact("range-register", "range by other registers", WRONG, ("range",), _range_register, "range"),
     Fact("range-union", "range with gaps", LOST, ("range",), _range_union, "range"),
     Fact("valid", "limits of a valid reading", LOST, ("valid",), _valid),
+    Fact("saturates", "that a reading may be clipped", LOST, ("views",), _saturates),
     Fact("sentinel", "fault words", WRONG, ("sentinels",), lambda one: _sentinels(one) if one.sentinels else ""),
     Fact("special-value", "special values beside the range", LOST, ("specials",), _said("specials", "special values")),
     Fact("enum", "codes with labels", LOST, ("enum",), _said("enum", "its codes have labels")),
@@ -201,6 +213,7 @@ FACTS = (
     Fact("fields", "parts of a word", LOST, ("fields",), _fields),
     Fact("boolean", "truth values in words", LOST, ("kind",), _of_kind(Kind.BOOLEAN)),
     Fact("string", "texts", LOST, ("kind", "text"), _of_kind(Kind.STRING)),
+    Fact("padding", "what fills a text up", LOST, ("kind", "text"), _padding, "string"),
     Fact("version", "versions", LOST, ("kind", "version_digits", "version_group"), _of_kind(Kind.VERSION)),
     Fact("bytes", "bytes, IP and MAC addresses", LOST, ("kind",), _of_kind(Kind.BYTES, Kind.IPV4, Kind.IPV6, Kind.MAC)),
     Fact("date", "dates and times", LOST, ("kind", "layout"), _of_kind(*MOMENTS)),
@@ -330,6 +343,7 @@ TOLD = {
     "register": "the whole register",
     "scale-rounded": "a scale without a finite decimal",
     "precision-float32": "digits of numbers beyond what a float of 32 bits tells apart",
+    "precision-float64": "digits of scaled numbers beyond what a float of 64 bits tells apart",
     "serial-line": "speed and character format of the serial line",
 }
 """What exporters tell by themselves, by code: what a form makes of a fact, which no fact alone decides."""

@@ -1,6 +1,6 @@
 """A register as a poller of one device sees it: an address, a type, an order, a scale, all worked out for one state."""
 
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterator, Sequence
 from contextlib import contextmanager
 from dataclasses import dataclass
 from fractions import Fraction
@@ -29,7 +29,7 @@ from regscribe.model import (
 from regscribe.reference import Surroundings, UnknownValueError, holds
 from regscribe.reference.surroundings import choose, decimal_factor
 from regscribe.reference.terms import amount, present_view, straight
-from regscribe.reference.words import AS_IS, Arrangement, word_order
+from regscribe.reference.words import AS_IS, Arrangement, carried, word_order
 
 
 class LeftOutError(Exception):
@@ -49,6 +49,15 @@ class Wire(NamedTuple):
     apart: bool = False
 
 
+class Fault(NamedTuple):
+    """Numbers on the wire, from `low` to `high`, that report a fault and no value; `low` is None for an IEEE NaN."""
+
+    low: Number | None
+    high: Number | None
+    id: str
+    label: str
+
+
 Fits = Callable[[Wire], bool]
 """Whether a form can read what stands on the wire so."""
 
@@ -59,7 +68,8 @@ class Point:
 
     `address` is that on the wire, from 0, of the first of `words` registers (or bits); `view` is the one that is read,
     as the map has it. `limits` are the ends of what may be written, in the unit (None: not stated); `members`,
-    `fields`, `sentinels` those that there are in this state. `write` is the address for writes; None: it cannot be
+    `fields`, `sentinels` those that there are in this state, `faults` the sentinels as they stand on the wire of the
+    view, as far as it can carry them. `write` is the address for writes; None: it cannot be
     written, or in another form only (`written_otherwise`).
     """
 
@@ -75,6 +85,7 @@ class Point:
     members: tuple[Member, ...] = ()
     fields: tuple[BitField, ...] = ()
     sentinels: tuple[Sentinel, ...] = ()
+    faults: tuple[Fault, ...] = ()
     specials: tuple[Special, ...] = ()
     write: int | None = None
     written_otherwise: bool = False
@@ -137,6 +148,7 @@ def point_of(register: Register, known: Surroundings, carries: Carries, fits: Fi
         members=members,
         fields=fields,
         sentinels=sentinels,
+        faults=_faults(present_view(view, known) or view, sentinels),
         specials=register.specials,
         write=write,
         written_otherwise=register.access.writable and write is None,
@@ -223,6 +235,20 @@ def _members(register: Register, known: Surroundings) -> tuple[Member, ...]:
 def _sentinels(register: Register, known: Surroundings) -> tuple[Sentinel, ...]:
     when = next((one.when for one in register.sentinels if holds(one.when, known)), None)
     return tuple(one for one in register.sentinels if one.when == when)
+
+
+def _faults(view: View, sentinels: Sequence[Sentinel]) -> tuple[Fault, ...]:
+    """Return the fault words as numbers on the wire; one that the view cannot carry is never seen there."""
+    found = []
+    for one in sentinels:
+        if one.ends is None:
+            found.append(Fault(None, None, one.id, one.label))
+            continue
+        ends = [carried(view, Fraction(end * view.factor)) for end in one.ends]
+        known = [end for end in ends if end is not None]
+        if len(known) == len(ends):
+            found.append(Fault(min(known), max(known), one.id, one.label))
+    return tuple(found)
 
 
 def _limits(register: Register, known: Surroundings) -> tuple[Fraction, Fraction] | None:
