@@ -334,7 +334,7 @@ RESOLVED: dict[str, Carry] = dict.fromkeys(
     ),
     Carry.FIXED,
 )
-"""What a `Point` has worked out for one state of the device, whatever the form."""
+"""What a `Point` has worked out for one state of the device; a form that says `condition` itself has all registers."""
 
 
 BY_ID = {fact.id: fact for fact in FACTS}

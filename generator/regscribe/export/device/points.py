@@ -122,7 +122,8 @@ def point_of(register: Register, known: Surroundings, carries: Carries, fits: Fi
     """Work out a register for the state `known`. Raises LeftOutError."""
     _refuse_kind(register, carries)
     with _needs("whether it exists"):
-        if not holds(register.when, known):
+        said = carries.get("condition", Carry.FIXED) in {Carry.WHOLE, Carry.PARTLY}
+        if not said and not holds(register.when, known):
             message = f"it exists only while {one_line(condition_words(register.when))}"
             raise LeftOutError(message)
     view, wire = _read(register, known, fits)
