@@ -12,6 +12,7 @@ from regscribe.export.device.facts import KINDS, Carries, Carry
 from regscribe.model import (
     IDENTITY,
     BitField,
+    Cases,
     Interval,
     Kind,
     Limit,
@@ -19,6 +20,7 @@ from regscribe.model import (
     Number,
     Open,
     Order,
+    Range,
     Register,
     Sentinel,
     Space,
@@ -26,7 +28,8 @@ from regscribe.model import (
     View,
     WireType,
 )
-from regscribe.reference import Surroundings, UnknownValueError, holds
+from regscribe.reference import RefusedError, Surroundings, UnknownValueError, holds, limits, special_value
+from regscribe.reference.limits import Limits
 from regscribe.reference.surroundings import choose, decimal_factor
 from regscribe.reference.terms import amount, present_view, straight
 from regscribe.reference.words import AS_IS, Arrangement, carried, word_order
@@ -58,6 +61,18 @@ class Fault(NamedTuple):
     label: str
 
 
+class SpecialNumber(NamedTuple):
+    """A special value: the number on the wire, the value of use, and what it is called.
+
+    `code` is that number in the unit, which is no value where it stands for another one.
+    """
+
+    wire: Number
+    value: Fraction
+    label: str
+    code: Fraction
+
+
 Fits = Callable[[Wire], bool]
 """Whether a form can read what stands on the wire so."""
 
@@ -69,7 +84,9 @@ class Point:
     `address` is that on the wire, from 0, of the first of `words` registers (or bits); `view` is the one that is read,
     as the map has it. `limits` are the ends of what may be written, in the unit (None: not stated); `members`,
     `fields`, `sentinels` those that there are in this state, `faults` the sentinels as they stand on the wire of the
-    view, as far as it can carry them. `write` is the address for writes; None: it cannot be
+    view, as far as it can carry them, `special_numbers` the `specials` likewise. `ranges` are the intervals that
+    `limits` are the ends of (an end is None where nothing limits), `valid` those that a reading must lie in; None: they
+    are not known as things stand. `write` is the address for writes; None: it cannot be
     written, or in another form only (`written_otherwise`).
     """
 
@@ -82,11 +99,14 @@ class Point:
     offset: Fraction = Fraction(0)
     unit: str = ""
     limits: tuple[Fraction, Fraction] | None = None
+    ranges: Limits | None = ()
+    valid: Limits | None = ()
     members: tuple[Member, ...] = ()
     fields: tuple[BitField, ...] = ()
     sentinels: tuple[Sentinel, ...] = ()
     faults: tuple[Fault, ...] = ()
     specials: tuple[Special, ...] = ()
+    special_numbers: tuple[SpecialNumber, ...] = ()
     write: int | None = None
     written_otherwise: bool = False
 
@@ -135,6 +155,8 @@ def point_of(register: Register, known: Surroundings, carries: Carries, fits: Fi
         members = tuple(one for one in _members(register, known) if holds(one.when, known))
         fields = tuple(one for one in register.fields if holds(one.when, known))
         sentinels = _sentinels(register, known)
+    with _needs("its special values"):
+        special_numbers = _special_numbers(register, view, known, slope, offset)
     write = _write(register, view)
     return Point(
         register=register,
@@ -146,11 +168,14 @@ def point_of(register: Register, known: Surroundings, carries: Carries, fits: Fi
         offset=offset,
         unit=unit,
         limits=_limits(register, known),
+        ranges=_intervals(register.range, known, None if register.range else ()),
+        valid=_intervals(register.valid, known),
         members=members,
         fields=fields,
         sentinels=sentinels,
         faults=_faults(present_view(view, known) or view, sentinels),
         specials=register.specials,
+        special_numbers=special_numbers,
         write=write,
         written_otherwise=register.access.writable and write is None,
     )
@@ -250,6 +275,31 @@ def _faults(view: View, sentinels: Sequence[Sentinel]) -> tuple[Fault, ...]:
         if len(known) == len(ends):
             found.append(Fault(min(known), max(known), one.id, one.label))
     return tuple(found)
+
+
+def _special_numbers(
+    register: Register, view: View, known: Surroundings, slope: Fraction, offset: Fraction
+) -> tuple[SpecialNumber, ...]:
+    """Return the special values as they stand on the wire; one that the view cannot carry is never seen there."""
+    found = []
+    for one in register.specials:
+        code = special_value(register, one, known)
+        if code is None:
+            message = "its special values have no number as the device is stated"
+            raise LeftOutError(message)
+        number = carried(view, (code - offset) / slope)
+        if number is not None:
+            found.append(SpecialNumber(number, code if one.means is None else one.means, one.label, code))
+    return tuple(found)
+
+
+def _intervals(cases: Cases[Range], known: Surroundings, otherwise: Limits | None = ()) -> Limits | None:
+    """Return the intervals that hold in this state (`otherwise` where no case holds); None where they are not known."""
+    try:
+        chosen = choose(cases, known)
+        return otherwise if chosen is None else limits(chosen, known)
+    except (UnknownValueError, RefusedError):
+        return None
 
 
 def _limits(register: Register, known: Surroundings) -> tuple[Fraction, Fraction] | None:
