@@ -46,7 +46,8 @@ ROOMS = {
     "schema": {"model", "source", "map_files"},
     "compose": {"model", "source", "schema", "map_files"},
     "lower": {"model", "reference", "source", "schema"},
-    "checks": {"model", "reference", "source", "schema", "compose", "lower", WIRE},
+    "breaking": {"model", "emit"},
+    "checks": {"model", "reference", "source", "schema", "compose", "lower", "breaking", WIRE},
     "emit": {"model", "reference", "schema", "visible", RUNTIME},
     "pictures": {"model", "emit", "visible"},
     "losses": set[str](),
@@ -65,7 +66,7 @@ ROOMS = {
     "tools": {"model", "source", "schema", "files", "visible", "emit", "pictures"} | WHOLE,
     "cli": {"model", "reference", "source", "schema", "compose", "lower", "checks", "emit", "pictures", "evidence"}
     | {"plugins", "simulate", "pipeline", "files", "tools", "map_files", "visible", "draft", "losses"}
-    | {"planned_model"}
+    | {"planned_model", "breaking"}
     | WHOLE,
 }
 """Which other rooms a room may import, besides the vocabulary in `regscribe_runtime.values`."""

@@ -9,6 +9,7 @@ from collections.abc import Iterator
 from dataclasses import replace
 from typing import NamedTuple
 
+from regscribe import breaking
 from regscribe.checks import (  # noqa: F401 (each declares its rules)
     addresses,
     blocks,
@@ -105,7 +106,8 @@ def _waived(found: LocatedFinding, register_map: RegisterMap, used: set[Waiver])
 
 def _useless(register_map: RegisterMap, used: set[Waiver]) -> Iterator[tuple[Rule, Finding]]:
     """What is wrong with the waivers themselves; `used` are those that removed a finding."""
-    waivable = {rule.id for rule in DECLARED}
+    of_changes = {rule.id for rule in breaking.RULES}  # whether they excuse something, only two versions tell
+    waivable = {rule.id for rule in DECLARED} | of_changes
     for waiver in register_map.waivers:
         if waiver.rule not in waivable:
             message = f"the waiver at `{waiver.at}` names {waiver.rule}, which is no rule that can be waived"
@@ -114,7 +116,7 @@ def _useless(register_map: RegisterMap, used: set[Waiver]) -> Iterator[tuple[Rul
         elif not waiver.reason.strip():
             message = f"the waiver of {waiver.rule} at `{waiver.at}` gives no reason"
             yield NO_REASON, Finding(waiver.at, waiver.span, message, "say why the map is right nevertheless")
-        elif waiver not in used:
+        elif waiver not in used and waiver.rule not in of_changes:
             message = f"nothing at `{waiver.at}` is against {waiver.rule}"
             yield NOTHING_WAIVED, Finding(waiver.at, waiver.span, message, "remove the waiver, or correct `at`")
 

@@ -3,11 +3,13 @@
 from importlib.resources import files
 from importlib.resources.abc import Traversable
 
-from regscribe import checks, compose, lower, schema, source
+from regscribe import breaking, checks, compose, lower, schema, source
 from regscribe.model import Rule
 
-ROOMS = {"source": source, "schema": schema, "lower": lower, "checks": checks, "compose": compose}
-"""The phases that have rules, in the order of their hundreds."""
+ROOMS = {"source": source, "schema": schema, "lower": lower, "checks": checks, "compose": compose} | {
+    "breaking": breaking
+}
+"""The phases that have rules, and the room that compares versions."""
 
 MAIN = "example/controller.yaml"
 """In an example of several files: the map that is compiled. The folder of the example is its `maps` folder."""

@@ -26,6 +26,7 @@ USUAL: dict[str, list[str]] = {
     "new": ["acme/new"],
     "export": ["acme/oven", "--format", "csv"],
     "compare": ["acme/oven", "acme/oven"],
+    "breaking": ["acme/oven", "--against", "maps"],
     "coverage": [],
     "simulate": ["acme/oven"],
     "plan": ["acme/oven", "--model", "O1", "--all"],

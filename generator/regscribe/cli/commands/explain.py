@@ -5,6 +5,9 @@ from difflib import SequenceMatcher, get_close_matches
 
 import click
 
+from regscribe import breaking
+from regscribe.breaking.examples import EDITS, shown
+from regscribe.breaking.report import told
 from regscribe.checks import catalogue
 from regscribe.checks.catalogue import Example
 from regscribe.cli.shared.diagnostic_text import STYLES
@@ -15,7 +18,7 @@ from regscribe.model import Rule
 @click.command(epilog="Example: regscribe explain RS0109")
 @click.argument("rule_id", metavar="RULE")
 def command(*, rule_id: str) -> None:
-    """Explain a rule: what it asks, why, and a bad and a good example.
+    """Explain a rule: what it asks, why, and a bad and a good example; of a kind of change, an edit that makes it.
 
     RULE is the id that a finding shows. Lines in which the examples differ are marked with - and +.
     """
@@ -34,6 +37,9 @@ def _meant(rule_id: str, rules: dict[str, Rule]) -> str:
 
 
 def _explanation(rule: Rule) -> Iterator[Piece]:
+    if rule in breaking.RULES:
+        yield from _change(rule)
+        return
     bad, good = catalogue.examples(rule.id)
     yield f"{rule.severity.value}[{rule.id}]", STYLES[rule.severity]
     yield f": {rule.title}\n", "bold"
@@ -42,6 +48,20 @@ def _explanation(rule: Rule) -> Iterator[Piece]:
     yield from _example("Good", good, other=bad, mark="+", style="green")
     if bad is None and good is None:
         yield "\nNo example: the rule is about the file, not about what stands in it.\n", ""
+
+
+def _change(rule: Rule) -> Iterator[Piece]:
+    """A kind of change: its reason, and an edit of a map that makes it."""
+    yield f"change[{rule.id}]", STYLES[rule.severity]
+    yield f": {rule.title}\n", "bold"
+    yield f"\n{rule.why}\n", ""
+    if rule not in EDITS:
+        yield "\nNo example: a whole map came or went.\n", ""
+        return
+    yield "\nExample, in a map:\n", "bold"
+    colours = {"-": "red", "+": "green", "@": "cyan"}
+    yield from ((f"{line}\n", colours.get(line[:1], "")) for line in shown(rule).splitlines())
+    yield f"\n{told(EDITS[rule].effects)}\n", ""
 
 
 def _example(title: str, files: Example | None, *, other: Example | None, mark: str, style: str) -> Iterator[Piece]:

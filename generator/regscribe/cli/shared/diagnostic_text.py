@@ -40,10 +40,10 @@ def findings(diagnostics: Iterable[Diagnostic]) -> Iterator[Piece]:
     for diagnostic in diagnostics:
         yield f"{diagnostic.severity.value}[{diagnostic.rule}]", STYLES[diagnostic.severity]
         yield f": {safe(diagnostic.message)}\n", "bold"
-        yield from _place(diagnostic.span, lines_of, STYLES[diagnostic.severity])
+        yield from placed(diagnostic.span, lines_of, STYLES[diagnostic.severity])
         for related in diagnostic.related:
             yield f"  note: {safe(related.message)}\n", ""
-            yield from _place(related.span, lines_of, MARGIN)
+            yield from placed(related.span, lines_of, MARGIN)
         if diagnostic.help:
             yield "  help: ", "bold green"
             yield f"{safe(diagnostic.help)}\n", ""
@@ -63,7 +63,8 @@ def tally(diagnostics: Iterable[Diagnostic]) -> str:
     return ", ".join(count(number, severity.value) for severity, number in numbers.items() if number) or "no findings"
 
 
-def _place(span: Span, lines_of: Callable[[str], Sequence[str]], style: str) -> Iterator[Piece]:
+def placed(span: Span, lines_of: Callable[[str], Sequence[str]], style: str) -> Iterator[Piece]:
+    """Yield a place with its line, as far as the file can be read, and carets in a style under it."""
     yield "  --> ", MARGIN
     yield f"{safe(str(span))}\n", ""
     shown = excerpt(span, lines_of(span.file))
