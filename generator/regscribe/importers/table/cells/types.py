@@ -1,36 +1,47 @@
 """Wire types, as people write them; words that mean different widths to different people are read in a dialect."""
 
-from collections.abc import Sequence
-from dataclasses import dataclass
+import re
+from dataclasses import dataclass, replace
+from difflib import get_close_matches
+from typing import NamedTuple
 
-from regscribe.importers.table.cells import Unclear
-from regscribe.model import WireType
-from regscribe_runtime.values.wire_types import Order
+from regscribe.importers.table.cells import Unclear, quoted
+from regscribe.importers.table.cells.dialects import Dialect, DialectChoice, choose_dialect, read_dialect
+from regscribe.importers.table.cells.numbers import clean
+from regscribe.importers.table.cells.orders import Orders, parse_order, split_order
+from regscribe.importers.table.cells.sizes import Size, parse_size
+from regscribe.importers.table.cells.type_words import (
+    BITS_WORDS,
+    FIXED,
+    KINDS,
+    NUMBERED,
+    PROPOSED,
+    TEXTS,
+    UNIX,
+    dialect_type,
+    fold,
+)
+from regscribe.model import Order, WireType
 
-
-@dataclass(frozen=True, slots=True)
-class Dialect:
-    """How wide the words are that mean different widths to different people; None: not known, so they are unclear.
-
-    `uint` stands for UINT, `int` for INT, `long` for LONG and ULONG, `byte` for BYTE, `word` for WORD, in bits.
-    `characters`: whether the number of a text (`string[6]`) counts characters and no registers.
-    """
-
-    int_bits: int | None = None
-    uint_bits: int | None = None
-    long_bits: int | None = 32
-    byte_bits: int | None = None
-    word_bits: int | None = 16
-    characters: bool | None = None
+__all__ = [
+    "Dialect",
+    "DialectChoice",
+    "TypeCell",
+    "choose_dialect",
+    "parse_order",
+    "parse_type",
+    "read_dialect",
+]
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class TypeCell:
-    """The type that a cell says.
+    """The type that a row says.
 
-    `type` is None where it says an order, a sign or a kind alone. `words` are the registers that it takes, 0 if not
-    said (a text without length). Orders are None where the cell says none. `kind` is `flags`, `enum`, `boolean` or
-    `version`, where a word says so.
+    `type` is None where it says an order or a kind alone. `words` are the registers that it takes, 0 if not said (a
+    text without length). Orders are None where the cell says none. `kind` is `flags`, `enum` or `boolean`, where a word
+    says so. `encoding` is that of a text, `layout` that of a date, if they are said; `signed` is a sign without a width.
+    `stated` says in a sentence how a length was read.
     """
 
     type: WireType | None = None
@@ -39,39 +50,186 @@ class TypeCell:
     byte_order: Order | None = None
     kind: str = ""
     encoding: str = ""
+    layout: str = ""
     signed: bool | None = None
+    stated: str = ""
 
 
-@dataclass(frozen=True, slots=True)
-class DialectChoice:
-    """The dialect of a table, with a sentence for each word that it decides, and the evidence."""
+class _Words(NamedTuple):
+    """The words of a type without an order: in small letters, and folded; the size beside them; the cell."""
 
+    plain: str
+    folded: str
     dialect: Dialect
-    stated: tuple[str, ...]
+    size: Size | None
+    text: str
+    gap: int
 
 
 def parse_type(text: str, dialect: Dialect, *, size: str = "", gap: int = 0) -> TypeCell | Unclear | None:
     """Read the cells of type and size of one row (`U16`, `UDINT swapped`, `STRING(16)`; `2 words`, `32 bit`).
 
-    `gap` is the distance to the next register of the space, 0 if not known.
+    A size that is not understood matters only where the type hangs on it. `gap` is the distance to the next register of
+    the space, 0 if not known: a text that ends just before it shows what its length counts.
     """
-    word = text.strip().lower()
-    if not word:
+    plain = clean(text).casefold()
+    sized = parse_size(size, dialect.size_bits)
+    if plain in {"", "-", "--", "?"}:
+        return _of_size(sized, size) if isinstance(sized, Size) else sized
+    ordered = split_order(plain, little_bytes=dialect.little_bytes)
+    if isinstance(ordered, Unclear):
+        return ordered
+    rest, orders = ordered
+    known = sized if isinstance(sized, Size) else None
+    found = _type(_Words(rest, fold(rest), dialect, known, text, gap)) if rest else TypeCell()
+    return found if isinstance(found, Unclear) else _checked(_with_orders(found, orders), known, text, size)
+
+
+def _of_size(sized: Size, size: str) -> TypeCell | Unclear:
+    """A size without a type."""
+    return Unclear(f"the size {quoted(size)} does not say whether the number of {sized.bits} bits has a sign")
+
+
+def _with_orders(found: TypeCell, orders: Orders) -> TypeCell:
+    if found.type and found.words == 1 and not found.type.is_octets:
+        orders = orders._replace(word=None)  # one word has no order of words
+    return replace(found, word_order=orders.word, byte_order=orders.byte)
+
+
+def _checked(found: TypeCell, sized: Size | None, text: str, size: str) -> TypeCell | Unclear:
+    """The type, unless the size beside it contradicts it."""
+    if sized is None or found.type is None or found.type.is_octets or found.type is WireType.BIT:
+        return found
+    if found.words == sized.words or sized.bits == found.type.bits:
+        return found
+    return Unclear(f"the type {quoted(text)} has {found.type.bits} bits, and the size {quoted(size)} says {sized.bits}")
+
+
+def _type(words: _Words) -> TypeCell | Unclear:
+    """The type that words without an order say."""
+    for reading in (_fixed, _of_dialect, _text, _kind, _numbered, _signed, _unix, _bracketed):
+        if found := reading(words):
+            return found
+    return _unknown(words.folded, words.text)
+
+
+def _cell(name: str, **more: str) -> TypeCell | None:
+    """The type of a name, if there is one."""
+    if name not in list(WireType):
         return None
-    if word not in list(WireType):
-        return Unclear(f"{text} {size} {gap} {dialect}")
-    return TypeCell(type=WireType(word), words=WireType(word).words)
+    wire = WireType(name)
+    return TypeCell(type=wire, words=wire.words, kind=more.get("kind", ""), stated=more.get("stated", ""))
 
 
-def choose_dialect(texts: Sequence[str], sizes: Sequence[str], gaps: Sequence[int]) -> DialectChoice:
-    """Decide what UINT, INT, LONG, BYTE and lengths of texts mean in a table, by the gaps to the next rows.
-
-    `sizes` are the cells of a size column, empty ones where there is none; `gaps` are distances to the next register,
-    0 where not known.
-    """
-    return DialectChoice(Dialect(), (*texts, *sizes, *map(str, gaps))[:0])
+def _fixed(words: _Words) -> TypeCell | None:
+    return _cell(FIXED.get(words.folded, ""))
 
 
-def parse_order(text: str) -> tuple[Order | None, Order | None] | Unclear | None:
-    """Read words for the order of words and bytes (`CDAB`, `little endian`, `swapped`, `Lo-Hi`): (words, bytes)."""
-    return Unclear(text) if text else None
+def _of_dialect(words: _Words) -> TypeCell | None:
+    return _cell(dialect_type(words.folded, words.dialect, words.size.bits if words.size else 0))
+
+
+def _numbered(words: _Words) -> TypeCell | Unclear | None:
+    """`unsigned 16`, `32 bit float`: a word and a number of bits."""
+    found = NUMBERED.fullmatch(words.folded)
+    if not found:
+        return None
+    word = found["word"] or found["last"] or found["both"]
+    stem = "float" if word[0] in "fr" else "uint" if word[0] == "u" else "int"
+    bits = found["n"] or found["m"] or found["o"]
+    return _cell(f"{stem}{bits}") or Unclear(f"{quoted(words.text)} is no type: there is no {stem} of {bits} bits")
+
+
+def _signed(words: _Words) -> TypeCell | Unclear | None:
+    """`signed` or `float`, whose width another column says."""
+    stem = BITS_WORDS.get(words.folded)
+    if not stem:
+        return None
+    if words.size is None:
+        return Unclear(f"{quoted(words.text)} does not say of how many bits")
+    return _cell(f"{stem}{words.size.bits}") or Unclear(f"there is no {stem} of {words.size.bits} bits")
+
+
+def _unix(words: _Words) -> TypeCell | None:
+    """Seconds since 1970, whose width another column says."""
+    layouts = {2: "unix", 4: "unix64"}
+    if words.folded not in UNIX or not words.size or words.size.words not in layouts:
+        return None
+    return TypeCell(type=WireType.DATETIME, words=words.size.words, layout=layouts[words.size.words])
+
+
+def _bracketed(words: _Words) -> TypeCell | Unclear | None:
+    """`UINT (16 bit)`, `U16 (bitfield)`: a type with its size, its kind or an order in brackets."""
+    found = re.fullmatch(r"(.+?)\s*[(\[]([^()\[\]]+)[)\]]", words.plain)
+    if not found:
+        return None
+    sized, kind = parse_size(found[2], None), KINDS.get(found[2].replace(" ", ""))
+    if not isinstance(sized, Size) and not kind:
+        return None
+    inner = found[1]
+    size = sized if isinstance(sized, Size) else words.size
+    of_type = _type(words._replace(plain=inner, folded=fold(inner), size=size))
+    if isinstance(of_type, Unclear):
+        return of_type
+    return _checked(replace(of_type, kind=kind or of_type.kind), size, words.text, found[2])
+
+
+def _kind(words: _Words) -> TypeCell | Unclear | None:
+    """A word that says of what kind the value is: its number is unsigned, of 16 bits if nothing else is said."""
+    folded = re.sub(r"([0-9]+)digits?bcd", r"bcd\1", words.folded)
+    found = re.fullmatch(r"([a-z]+?)([0-9]*)(?:bits?|digits?)?", folded)
+    kind = KINDS.get(found[1]) if found else None
+    if not found or not kind:
+        return None
+    bits = int(found[2]) if found[2] else words.size.bits if words.size else 16
+    if kind == "bcd":
+        if not found[2] and not words.size:
+            return Unclear(f"{quoted(words.text)} does not say of how many bits", "`bcd16`")
+        of_digits = f"bcd{bits if bits >= 16 else 4 * bits}"  # noqa: PLR2004 - digits of four bits each
+        return _cell(of_digits) or Unclear(f"{quoted(words.text)} is no type")
+    return _cell(f"uint{bits}", kind=kind) or Unclear(f"{quoted(words.text)}: there is no number of {bits} bits")
+
+
+def _text(words: _Words) -> TypeCell | Unclear | None:
+    """A text with its length, which counts characters or registers; None if it is no text."""
+    found = TEXTS.fullmatch(words.plain) or TEXTS.fullmatch(words.folded)
+    if not found:
+        return None
+    word, unit = found["word"] or found["word2"], found["unit"] or found["unit2"] or ""
+    if word == "char" and not (found["n"] or found["m"]) and not words.size:
+        return None
+    plain = TypeCell(type=WireType.STRING, words=words.size.words if words.size else 0, encoding=_encoding(word))
+    length = int(found["n"] or found["m"] or 0)
+    if not length:
+        return plain
+    counts = _counts_characters(unit, word, words.dialect)
+    if counts is None and length > 1 and (plain.words or words.gap) in {length, (length + 1) // 2}:
+        counts = (plain.words or words.gap) != length
+    if counts is None:
+        return _unclear_length(words.text)
+    stated = f"{quoted(words.text)} has {length} {'characters' if counts else 'registers'}"
+    return replace(plain, words=(length + 1) // 2 if counts else length, stated=stated)
+
+
+def _encoding(word: str) -> str:
+    return "utf-8" if word.startswith("utf") else ""
+
+
+def _counts_characters(unit: str, word: str, dialect: Dialect) -> bool | None:
+    """Whether the length of a text counts characters, by the word behind it, else by the dialect."""
+    if unit:
+        return unit[0] in "cbz"
+    return True if word.startswith("char") else dialect.characters
+
+
+def _unclear_length(text: str) -> Unclear:
+    return Unclear(f"{quoted(text)} does not say whether its length counts characters or registers")
+
+
+def _unknown(folded: str, text: str) -> Unclear:
+    if re.fullmatch(r"[0-9]+bits?", folded):
+        return Unclear(f"{quoted(text)} does not say whether the number has a sign")
+    if folded in PROPOSED:
+        return Unclear(f"{quoted(text)} does not say how the words tell it", PROPOSED[folded])
+    near = get_close_matches(folded, list(FIXED), n=1, cutoff=0.75)
+    return Unclear(f"{quoted(text)} is no type", f"`{FIXED[near[0]]}`" if near else "")
