@@ -11,6 +11,9 @@ MAP, LIBRARY = "map", "library"
 ENDINGS = {MAP: ".yaml", LIBRARY: ".library.yaml"}
 """Endings of file names by kind; the kind is also the top-level key of the file."""
 
+IMPORT, IMPORT_ENDING = "import", ".import.yaml"
+"""The kind of file beside a map that says how a vendor's list is imported into it, and the ending of its name."""
+
 LOCAL = Path("maps")
 """The folder of maps that is searched first, in the working directory."""
 
@@ -49,6 +52,8 @@ def ids_in(folders: Iterable[Path], kind: str = MAP) -> list[str]:
 
 def kind_of(file: str) -> str:
     """Return the kind of a YAML file, by the ending of its name."""
+    if file.endswith(IMPORT_ENDING):
+        return IMPORT
     return LIBRARY if file.endswith(ENDINGS[LIBRARY]) else MAP
 
 

@@ -20,7 +20,7 @@ from regscribe.visible import safe
 EXPORTERS, IMPORTERS = "regscribe.exporters", "regscribe.importers"
 KINDS = {EXPORTERS: "exporter", IMPORTERS: "importer"}
 
-OPTION = re.compile(r"(?!(format|out|help|as|strict|report|report-to|merge)$)[a-z][a-z0-9-]*")
+OPTION = re.compile(r"(?!(format|out|help|as|strict|report|report-to|merge|mapping|save-mapping)$)[a-z][a-z0-9-]*")
 """Names that an option may have; those left out are options of `regscribe export` and `import` themselves."""
 
 MOST_TEXT = 300

@@ -52,7 +52,7 @@ ROOMS = {
     "pictures": {"model", "emit", "visible"},
     "losses": set[str](),
     "dialects": {"model"},
-    "draft": {"model", "files", "visible"},
+    "draft": {"model", "source", "checks", "files", "visible"},
     "planned_model": {"model", "reference", "checks", f"{RUNTIME}.planning"},
     "plugins": {"model", "visible", "draft", "losses"},
     "export": {"model", "dialects", "reference", "checks", "emit", "plugins", "visible", "losses"},
@@ -83,6 +83,9 @@ LIBRARIES = {
     "rich": {"cli"},
     "plotille": {"cli"},
     "pymodbus": {f"{WIRE}.framing", f"{RUNTIME}.link.clients"},
+    "openpyxl": {"importers"},
+    "pdfplumber": {"importers"},
+    "defusedxml": {"importers"},
     "serial": {f"{RUNTIME}.link.streams", "regscribe.simulate.line.serial_ports"},
     "hypothesis": {"testing"},
 }

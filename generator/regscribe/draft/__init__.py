@@ -73,6 +73,16 @@ class Entry:
         return (self, *(inner for member in self.members for inner in member.each))
 
 
+@dataclass(frozen=True, slots=True)
+class Recognised:
+    """A column of a table: what people call it, its heading, what it was understood as, and why."""
+
+    column: str
+    heading: str
+    meaning: str
+    evidence: str
+
+
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Draft:
     """A map in the making.
@@ -81,6 +91,8 @@ class Draft:
     `map`; `groups` further keys of a group by its name. `title` and `maker` are what the source calls the device and
     who made it. `stated` are conclusions about the source as a whole, with their evidence. `findings` are faults of the
     source itself (doubles, overlaps, impossible ranges); with an error among them nothing is imported.
+    `recognised` are the columns of a table. `settings` are options of the importer by which a later version of the
+    source is read in the same way; of an option with several values each stands in a line.
     """
 
     entries: tuple[Entry, ...] = ()
@@ -90,6 +102,8 @@ class Draft:
     maker: str = ""
     stated: tuple[str, ...] = ()
     findings: tuple[Diagnostic, ...] = ()
+    recognised: tuple[Recognised, ...] = ()
+    settings: Mapping[str, str] = field(default_factory=dict)
 
     @property
     def failed(self) -> bool:

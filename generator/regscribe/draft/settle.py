@@ -5,6 +5,7 @@ from dataclasses import replace
 from typing import Any
 
 from regscribe.draft import Draft, Entry, Remark
+from regscribe.draft.ids import named
 from regscribe.draft.text import Written, text_of
 from regscribe.model import Diagnostic, Severity
 
@@ -30,13 +31,16 @@ def settle(draft: Draft, head: Mapping[str, Any], check: Check) -> tuple[Draft, 
     An error on the line of an entry takes the key that it points at out of the entry, or else the entry. An error that
     stands elsewhere is left: the caller tells it.
     """
+    draft = named(draft)
+    written = text_of(draft, head)
+    found = tuple(check(written.text))
     for _ in range(MOST_ROUNDS):
-        written = text_of(draft, head)
-        found = tuple(check(written.text))
         wrong = _by_entry(written, found)
         if not wrong:
             break
         draft = replace(draft, entries=tuple(_mended(entry, wrong) for entry in draft.entries))
+        written = text_of(draft, head)
+        found = tuple(check(written.text))
     return draft, written, found
 
 

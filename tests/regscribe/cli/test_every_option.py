@@ -25,6 +25,7 @@ USUAL: dict[str, list[str]] = {
     "explain": ["RS0401"],
     "new": ["acme/new"],
     "export": ["acme/oven", "--format", "csv"],
+    "import": ["table.csv"],
     "compare": ["acme/oven", "acme/oven"],
     "breaking": ["acme/oven", "--against", "maps"],
     "coverage": [],
@@ -69,6 +70,7 @@ def bench(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.chdir(tmp_path)
     monkeypatch.setenv("XDG_CACHE_HOME", str(tmp_path / "cache"))
     put_map(tmp_path)
+    (tmp_path / "table.csv").write_text("Address,Name,Type,Access\n1,Level,uint16,r\n")
     (tmp_path / "bytes").write_bytes(bytes(range(256)))
     (tmp_path / "closed").mkdir(mode=0)
     assert run(["generate", "--out", "mine"]) == 0

@@ -6,23 +6,30 @@ from dataclasses import asdict
 
 from regscribe.cli.shared.diagnostic_text import count
 from regscribe.cli.shared.report_formats import as_sarif
-from regscribe.draft import Draft, Entry, Outcome
+from regscribe.draft import Draft, Entry, Outcome, Recognised
+from regscribe.draft.merge import Change, Note
 from regscribe.model import Diagnostic, Severity
 from regscribe.visible import json_text, safe
 
 FORMS = ("text", "json", "sarif")
+HEADS = ("column", "heading", "understood as", "because")
+MOST_HEADING = 40
+"""Most characters of a heading that the table of columns shows."""
 
 
-def report_of(draft: Draft, found: Sequence[Diagnostic], *, source: str, form: str, report: str) -> str:
-    """Return the report: `found` are faults of the source, and what `check` still refuses."""
+def report_of(
+    draft: Draft, found: Sequence[Diagnostic], *, source: str, form: str, report: str, notes: Sequence[Note] = ()
+) -> str:
+    """Return the report: `found` are faults of the source and what `check` still refuses, `notes` are of a merge."""
     if report == "sarif":
-        return as_sarif([*found, *(one for entry in draft.each for one in _diagnostics(entry))], {})
+        rows = [one for entry in draft.each for one in _diagnostics(entry)]
+        return as_sarif([*found, *rows, *map(_of_note, notes)], {})
     if report == "json":
-        return _json(draft, found, source, form)
-    return "".join(f"{safe(line)}\n" for line in _lines(draft, found))
+        return _json(draft, found, source, form, notes)
+    return "".join(f"{safe(line)}\n" for line in _lines(draft, found, notes))
 
 
-def _json(draft: Draft, found: Sequence[Diagnostic], source: str, form: str) -> str:
+def _json(draft: Draft, found: Sequence[Diagnostic], source: str, form: str, notes: Sequence[Note]) -> str:
     rows = [
         {
             "place": asdict(entry.place),
@@ -39,10 +46,13 @@ def _json(draft: Draft, found: Sequence[Diagnostic], source: str, form: str) -> 
     counts = Counter(entry.outcome for entry in draft.each)
     tally = {outcome.value.replace(" ", "_"): counts[outcome] for outcome in Outcome}
     whole = {"format": 1, "source": source, "importer": form, "counts": tally}
-    return json_text({**whole, "stated": draft.stated, "findings": plain, "rows": rows}, indent=2) + "\n"
+    columns = [asdict(column) for column in draft.recognised]
+    about = {"columns": columns, "stated": draft.stated, "findings": plain, "rows": rows}
+    return json_text({**whole, **about, "merge": [asdict(note) for note in notes]}, indent=2) + "\n"
 
 
-def _lines(draft: Draft, found: Sequence[Diagnostic]) -> Iterator[str]:
+def _lines(draft: Draft, found: Sequence[Diagnostic], notes: Sequence[Note]) -> Iterator[str]:
+    yield from _columns(draft.recognised)
     yield from draft.stated
     for one in found:
         yield f"{one.severity}: {one.span}: {one.message}{f' ({one.help})' if one.help else ''}"
@@ -50,9 +60,31 @@ def _lines(draft: Draft, found: Sequence[Diagnostic]) -> Iterator[str]:
         if entry.remarks or entry.outcome is not Outcome.WHOLE:
             said = "; ".join(f"{remark.code}: {remark.message}" for remark in entry.remarks)
             yield f"{entry.where or entry.place}: {entry.name}: {entry.outcome}: {said or 'no reason is given'}"
+    yield from (f"{note.place}: {note.name}: {note.change}: {note.message}" for note in notes)
     counts = Counter(entry.outcome for entry in draft.each)
     every = ", ".join(f"{counts[outcome]} {outcome}" for outcome in Outcome)
     yield f"{count(len(draft.each), 'row')}: {every}"
+
+
+def _columns(recognised: Sequence[Recognised]) -> Iterator[str]:
+    """The columns of a table, as a table."""
+    if not recognised:
+        return
+    rows = [HEADS, *((one.column, _short(one.heading), one.meaning, one.evidence) for one in recognised)]
+    widths = [max(map(len, column)) for column in zip(*rows, strict=True)]
+    for row in rows:
+        yield "  ".join(cell.ljust(width) for cell, width in zip(row, widths, strict=True)).rstrip()
+
+
+def _short(heading: str) -> str:
+    text = " ".join(heading.split())
+    return text if len(text) <= MOST_HEADING else f"{text[: MOST_HEADING - 3]}..."
+
+
+def _of_note(note: Note) -> Diagnostic:
+    word = note.change.name.lower()
+    severity = Severity.ERROR if note.change is Change.KEPT else Severity.WARNING
+    return Diagnostic(f"merge/{word}", f"{note.name}: {note.change}: {note.message}", note.place, severity=severity)
 
 
 def _diagnostics(entry: Entry) -> Iterator[Diagnostic]:

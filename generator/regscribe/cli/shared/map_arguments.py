@@ -6,7 +6,7 @@ from difflib import get_close_matches
 from pathlib import Path
 
 from regscribe.cli.shared.output import refuse
-from regscribe.map_files import ENDINGS, LIBRARY, LOCAL, MAP, file_of, ids_in, kind_of, shipped
+from regscribe.map_files import ENDINGS, IMPORT, LIBRARY, LOCAL, MAP, file_of, ids_in, kind_of, shipped
 
 
 def find_maps(arguments: Sequence[str], *, libraries: bool = False) -> list[Path]:
@@ -36,6 +36,8 @@ def _is_folder(argument: str) -> bool:
 
 
 def _file_of(argument: str, kinds: Sequence[str]) -> Path:
+    if kind_of(argument) == IMPORT:
+        refuse(f"{argument} is the mapping of an import and no map: name the map")
     if kind_of(argument) not in kinds:
         refuse(f"{argument} is a library: nothing is made of it alone, name a map that uses it")
     if argument and os.path.exists(argument):  # noqa: PTH110 - as above

@@ -81,9 +81,12 @@ MOST_NAMED = 3
 """An option that more plug-ins share, with one meaning, is told without their names."""
 
 
-def own_options(plugin: Plugin, parameters: Mapping[str, Any]) -> dict[str, str]:
-    """Return the value of each option of a plug-in. Raises OptionError for those of others."""
+def own_options(
+    plugin: Plugin, parameters: Mapping[str, Any], kept: Mapping[str, Sequence[str]] | None = None
+) -> dict[str, str]:
+    """Return the value of each option of a plug-in; a file has `kept` some. Raises OptionError for those of others."""
     given = {name.removeprefix(OWN).replace("_", "-"): texts for name, texts in parameters.items() if texts}
+    given = {**(kept or {}), **given}
     own = {option.name: option for option in plugin.options}
     if foreign := [f"--{name}" for name in given if name not in own]:
         message = f"{', '.join(foreign)}: the format {plugin.name} takes no such option"

@@ -1,0 +1,220 @@
+"""The steps of an import: what a source and a mapping say becomes a draft, a text that passes `check`, and files."""
+
+import re
+import sys
+import tempfile
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, field
+from pathlib import Path
+
+from regscribe import plugins, source
+from regscribe.cli.shared.map_heads import head_of, is_part, parts_of
+from regscribe.cli.shared.output import refuse
+from regscribe.draft import Draft, Outcome
+from regscribe.draft.fixes import fixed
+from regscribe.draft.mapping import ImportMapping, begun, load
+from regscribe.draft.mapping import stored as store_mapping
+from regscribe.draft.merge import Change, Note, merge, stored
+from regscribe.draft.settle import settle
+from regscribe.files import FileError, save
+from regscribe.model import Diagnostic, Severity, Span
+from regscribe.model.identifiers import snake
+from regscribe.pipeline import compile_map
+from regscribe.plugins import IMPORTERS, OptionError
+from regscribe.source import Document
+
+STDIN = "-"
+MOST_BYTES = 64 * 1024 * 1024
+"""Far beyond any list of registers."""
+
+BYTE_ORDER_MARK = "\ufeff"
+
+
+@dataclass(slots=True)
+class Run:
+    """One import: what it was given, and what became of it; `text` is the map, None where nothing is to be written."""
+
+    form: str
+    name: str
+    options: Mapping[str, str]
+    mapping: ImportMapping
+    mapping_path: Path | None
+    draft: Draft = field(default_factory=Draft)
+    found: tuple[Diagnostic, ...] = ()
+    notes: tuple[Note, ...] = ()
+    text: str | None = None
+    imported: str = ""
+
+    def read(self, data: bytes) -> None:
+        """Read the source and follow the mapping. Raises PluginError and OptionError."""
+        draft = plugins.read(self.form, data, self.name, self.options)
+        if not draft.failed:
+            draft = fixed(draft, self.mapping.skip, self.mapping.fixes, str(self.mapping_path))
+        self.draft, self.found = draft, draft.findings
+
+    def settle(self, map_id: str | None, out: Path | None, *, merging: bool) -> None:
+        """Make the text of the map. Raises OptionError and FileError where it cannot be written where it should."""
+        if out is not None and out.exists() != merging:
+            message = (
+                f"{out} does not exist: leave --merge out for the first import"
+                if merging
+                else f"{out} exists; nothing was changed. Choose another name for the map, or --merge into it"
+            )
+            raise OptionError(message)
+        if self.draft.failed:
+            return
+        head = head_of(map_id or _id_for(self.draft, out, self.name), title=self.draft.title, maker=self.draft.maker)
+        self.draft, written, checked = settle(self.draft, head, _check)
+        if not any(entry.keys is not None for entry in self.draft.entries):
+            self.found = (*self.draft.findings, _nothing(self.name))
+            return
+        self.found = (*self.draft.findings, *_errors(checked))
+        if self.draft.failed or len(self.found) > len(self.draft.findings):
+            return
+        self.imported = written.text
+        self.text = self._merged(out) if merging and out is not None else written.text
+
+    def _merged(self, out: Path) -> str | None:
+        """The text of the map with what the list changed; None where `check` refuses it."""
+        if self.mapping.imported is None:
+            message = (
+                f"{self.mapping_path} does not say what the last import said: import the old list once more into a new "
+                "map with --save-mapping, and merge with that mapping"
+            )
+            raise OptionError(message)
+        raw = _raw(out)
+        ours, wrong = source.load(out)
+        if ours is None:
+            self.found = (*self.found, *wrong)
+            return None
+        merged = merge(self.mapping.imported, _document(self.imported, self.name), ours)
+        checked = _errors(_check_at(merged.text, out))
+        self.notes, self.found = merged.notes, (*self.found, *checked)
+        return None if checked else _like(merged.text, ours.text, raw, out)
+
+    def save_map(self, out: Path) -> None:
+        """Write the map. Raises FileError."""
+        try:
+            out.parent.mkdir(parents=True, exist_ok=True)
+        except OSError as error:
+            message = f"cannot write {out}: {error.strerror or error}"
+            raise FileError(message) from None
+        save(out, self.text or "")
+
+    def save_mapping(self, path: Path, *, imported: bool) -> None:
+        """Write the mapping, with what was imported if the map was written. Raises FileError and OptionError."""
+        own = self.mapping.own
+        if not own or path != self.mapping_path:
+            if path.exists():
+                message = f"{path} exists; nothing of it was changed. Use it with --mapping, or choose another name"
+                raise OptionError(message)
+            own = own or begun(self.form, self.name, {**self.options, **self.draft.settings})
+        if imported:
+            store_mapping(path, own, stored(_document(self.imported, self.name)))
+        else:
+            save(path, own)
+
+
+def code_of(run: Run) -> int:
+    """The exit code: 1 where something was left out, or kept as a person had it, or nothing could be imported."""
+    failed = any(one.severity is Severity.ERROR for one in run.found)
+    left_out = any(entry.outcome is Outcome.LEFT_OUT for entry in run.draft.each)
+    return int(failed or left_out or any(note.change is Change.KEPT for note in run.notes))
+
+
+def data_of(origin: str) -> tuple[bytes, str]:
+    """Return the bytes of the source and what messages call it. Raises click.UsageError."""
+    try:
+        if origin == STDIN:
+            data, name = sys.stdin.buffer.read(MOST_BYTES + 1), "stdin"
+        else:
+            with Path(origin).open("rb") as file:
+                data, name = file.read(MOST_BYTES + 1), origin
+    except (OSError, ValueError) as error:
+        refuse(f"cannot read {origin}: {getattr(error, 'strerror', None) or error}")
+    if len(data) > MOST_BYTES:
+        refuse(f"{name} has more than {MOST_BYTES} bytes, which no list of registers has")
+    return data, name
+
+
+def mapping_of(path: Path | None) -> ImportMapping:
+    """Return the mapping in a file, an empty one without. Raises FileError."""
+    return ImportMapping() if path is None else load(path)
+
+
+def recognised(data: bytes, name: str) -> str:
+    """Return the form of the source. Raises OptionError where that is not sure."""
+    found = plugins.recognise(data, name)
+    if len(found) == 1:
+        return found[0]
+    known = ", ".join(plugins.names(IMPORTERS))
+    if found:
+        message = f"{name} may be {' or '.join(found)}: say with --format which"
+    else:
+        message = f"nothing here reads {name}: say with --format what it is, of {known}"
+    raise OptionError(message)
+
+
+def _id_for(draft: Draft, out: Path | None, name: str) -> str:
+    """The id of a map that nobody named: by the path of the map, what the source says, or the name of its file."""
+    if out is not None and is_part(out.parent.name) and is_part(out.stem):
+        return f"{out.parent.name}/{out.stem}"
+    family = _part(draft.title) or _part(Path(name).stem) or "device"
+    return "/".join(parts_of(f"{_part(draft.maker) or 'imported'}/{family}"))
+
+
+def _part(text: str) -> str:
+    found = re.sub(r"_+", "-", snake(text))[:40].strip("-")
+    return found if is_part(found) else ""
+
+
+def _nothing(name: str) -> Diagnostic:
+    message = "no row of it became a register, so no map is written; the reasons stand with the rows"
+    return Diagnostic("import/nothing", message, Span(name))
+
+
+def _errors(found: Sequence[Diagnostic]) -> tuple[Diagnostic, ...]:
+    return tuple(one for one in found if one.severity is Severity.ERROR)
+
+
+def _check(text: str) -> Sequence[Diagnostic]:
+    with tempfile.TemporaryDirectory() as folder:
+        path = Path(folder) / "map.yaml"
+        path.write_text(text, encoding="utf-8")
+        return compile_map(path).diagnostics
+
+
+def _check_at(text: str, out: Path) -> Sequence[Diagnostic]:
+    """Check a text in the place of a map, where it finds what it extends and uses; the map itself stays as it is."""
+    with tempfile.NamedTemporaryFile("w", suffix=".yaml", prefix=".", dir=out.parent, encoding="utf-8") as file:
+        file.write(text)
+        file.flush()
+        return compile_map(Path(file.name)).diagnostics
+
+
+def _document(text: str, name: str) -> Document:
+    document, wrong = source.parse(text, name=name)
+    assert document is not None, wrong  # noqa: S101 - it passed `check`
+    return document
+
+
+def _raw(path: Path) -> str:
+    """The text of a map with its own line ends and byte order mark. Raises FileError."""
+    try:
+        return path.read_bytes().decode()
+    except OSError as error:
+        message = f"{path} cannot be read: {error.strerror or error}"
+        raise FileError(message) from None
+    except UnicodeDecodeError:
+        message = f"{path} is no UTF-8"
+        raise FileError(message) from None
+
+
+def _like(text: str, read: str, raw: str, path: Path) -> str:
+    """The text with the byte order mark and the line ends that the file has. Raises FileError for mixed ones."""
+    mark = BYTE_ORDER_MARK if raw.startswith(BYTE_ORDER_MARK) else ""
+    for ends in ("\n", "\r\n", "\r"):
+        if mark + read.replace("\n", ends) == raw:
+            return mark + text.replace("\n", ends)
+    message = f"{path} has line ends of different kinds: save it with one kind, and merge again"
+    raise FileError(message)

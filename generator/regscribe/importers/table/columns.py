@@ -1,0 +1,94 @@
+"""What each column of a table says: by its heading, by what stands below it, and as the user says."""
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+
+from regscribe.importers.table.column_words import Asked
+from regscribe.importers.table.contents import CONTENTS, judge
+from regscribe.importers.table.grid import Grid, letters
+from regscribe.importers.table.header import Header
+from regscribe.importers.table.headings import AT, IGNORE, INSIDE, ROLES, SEVERAL, meaning
+
+ENOUGH = 0.8
+"""Share of the cells of a column without a known heading that must be, say, types."""
+
+FEWEST = 3
+
+
+@dataclass(frozen=True, slots=True)
+class Column:
+    """One column: its index, what it is called, its role (empty: not understood; `-`: not to be read), and why."""
+
+    index: int
+    called: str
+    heading: str
+    role: str
+    evidence: str
+
+    @property
+    def shown(self) -> tuple[str, str, str, str]:
+        """What the proposal shows of it."""
+        understood = {"": "not understood", IGNORE: "not read"}.get(self.role, self.role)
+        return self.called, self.heading, understood, self.evidence
+
+
+def recognise(grid: Grid, header: Header, asked: Asked) -> tuple[Column, ...]:
+    """Return the columns of a grid; of several that claim a role the plainest has it. What is asked for stands."""
+    texts = texts_below(grid, header)
+    roles: dict[int, tuple[str, str]] = {}
+    for index, role in asked.at.items():
+        roles[index] = role, "as you said"
+    taken = {role for role, _ in roles.values()} | asked.none
+    claims = sorted(
+        (unsure, index, role)
+        for index, heading in enumerate(header.headings)
+        if index not in roles and (role := meaning(heading)[0])
+        for unsure in (meaning(heading)[1],)
+    )
+    for unsure, index, claimed in claims:
+        role, evidence = judge(claimed, texts[index], known=unsure < INSIDE)
+        if role in asked.none or (role in taken and (role not in SEVERAL or role in asked.fixed)):
+            continue
+        if role == AT and AT in taken and unsure >= INSIDE:
+            continue
+        roles[index] = role, evidence
+        taken.add(role)
+    _by_contents(roles, taken, texts)
+    return tuple(_column(grid, header, index, roles) for index in range(len(texts)) if _has(header, texts, index))
+
+
+def _has(header: Header, texts: Sequence[Sequence[str]], index: int) -> bool:
+    return bool(header.headings[index]) or any(texts[index])
+
+
+def _column(grid: Grid, header: Header, index: int, roles: Mapping[int, tuple[str, str]]) -> Column:
+    by_letters = bool(grid.rows) and grid.rows[0].letters
+    first = grid.rows[0].first if grid.rows else 0
+    called = letters(first + index) if by_letters else str(index + 1)
+    role, evidence = roles.get(index, ("", ""))
+    return Column(index, called, header.headings[index], role, evidence)
+
+
+def texts_below(grid: Grid, header: Header) -> list[list[str]]:
+    """The cells of each column below the header, without those that a merged cell repeats."""
+    below = grid.rows[header.last + 1 :]
+    return [[row.cell(at) for row in below if at not in row.repeated] for at in range(len(header.headings))]
+
+
+def _by_contents(roles: dict[int, tuple[str, str]], taken: set[str], texts: Sequence[Sequence[str]]) -> None:
+    """Give the roles that no heading told to columns whose cells tell them."""
+    for role, understood in CONTENTS.items():
+        if role in taken:
+            continue
+        for index, cells in enumerate(texts):
+            filled = [cell for cell in cells if cell]
+            good = sum(map(understood, filled))
+            if index not in roles and good >= max(FEWEST, ENOUGH * len(filled)):
+                roles[index] = role, f"{good} of {len(filled)} cells are such"
+                taken.add(role)
+                break
+
+
+def described(columns: Sequence[Column]) -> str:
+    """The roles that columns have, in words, for messages."""
+    return ", ".join(f"{column.heading or column.called}: {ROLES[column.role]}" for column in columns if column.role)

@@ -1,0 +1,152 @@
+"""Grids to a draft: which of them have registers, what their columns say, and what became of their rows."""
+
+from collections import Counter
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass, replace
+from pathlib import PurePath
+from typing import Any
+
+from regscribe.draft import Draft, Recognised
+from regscribe.importers.table.bit_rows import gathered
+from regscribe.importers.table.cells.detect import detect
+from regscribe.importers.table.choices import Choices
+from regscribe.importers.table.column_words import asked, pairs_of
+from regscribe.importers.table.columns import Column, recognise
+from regscribe.importers.table.grid import Grid, TableError
+from regscribe.importers.table.header import Header, at_row, find, without
+from regscribe.importers.table.headings import AT, IGNORE
+from regscribe.importers.table.layout import Layout, lay_out
+from regscribe.importers.table.registers import Made, made_of
+from regscribe.importers.table.whole import Whole, whole_of
+from regscribe.importers.table.workbooks import ALL
+from regscribe.model import Diagnostic
+
+SHOWN = 3
+"""Rows that are shown where no header is found."""
+
+
+@dataclass(frozen=True, slots=True)
+class Page:
+    """A grid with its header and columns."""
+
+    grid: Grid
+    header: Header
+    columns: tuple[Column, ...]
+
+    @property
+    def title(self) -> str:
+        """The name of the sheet; empty for other sources."""
+        row = self.grid.rows[0]
+        return row.where.removeprefix("sheet ").rpartition(", ")[0] if row.letters else ""
+
+
+def draft_of(grids: Sequence[Grid], choices: Choices, name: str) -> Draft:
+    """Make the draft. Raises TableError where no header is found, or several sheets have one and none was chosen."""
+    pages = [page for grid in grids if grid.rows and (page := _page(grid, choices)) is not None]
+    if not pages:
+        raise _no_header(grids, choices, name)
+    if len(pages) > 1 and not choices.sheets:
+        titles = ", ".join(f"`{page.title}` ({len(page.grid.rows)} rows)" for page in pages)
+        message = (
+            f"{name} has several sheets with registers, {titles}: choose with --sheet, or all with --sheet '{ALL}'"
+        )
+        raise TableError(message)
+    drafts = [_drafted(page, choices) for page in pages]
+    passed = [grid for grid in grids if all(page.grid is not grid for page in pages)]
+    return Draft(
+        entries=tuple(entry for draft in drafts for entry in draft.entries),
+        head=_head(drafts, name),
+        groups={group: keys for draft in drafts for group, keys in draft.groups.items()},
+        title=PurePath(name).stem if name != "stdin" else "",
+        stated=(*(text for draft in drafts for text in draft.stated), *_passed_over(passed)),
+        findings=tuple(one for draft in drafts for one in draft.findings),
+        recognised=tuple(one for draft in drafts for one in draft.recognised),
+    )
+
+
+def _head(drafts: Sequence[Draft], name: str) -> dict[str, Any]:
+    units = {unit: keys for draft in drafts for unit, keys in draft.head.get("units", {}).items()}
+    return {"manual": {"title": PurePath(name).name}, **({"units": units} if units else {})}
+
+
+def _passed_over(grids: Sequence[Grid]) -> Iterator[str]:
+    for grid in grids:
+        if grid.rows:
+            yield f"{grid.rows[0].where.rpartition(', ')[0]} has no header of a list of registers and was passed over"
+
+
+def _page(grid: Grid, choices: Choices) -> Page | None:
+    """A grid with its columns; None where no header is found. Raises TableError for columns that are not there."""
+    named = [heading for _, heading in pairs_of(choices.columns) if heading != IGNORE]
+    if choices.header == "none":
+        header: Header | None = without(grid)
+    elif choices.header:
+        header = at_row(grid, int(choices.header))
+    else:
+        header = find(grid, named)
+    if header is None:
+        return None
+    columns = recognise(grid, header, asked(choices.columns, header.headings, first=grid.rows[0].first))
+    return Page(grid, header, columns)
+
+
+def _no_header(grids: Sequence[Grid], choices: Choices, name: str) -> TableError:
+    if choices.header:
+        return TableError(f"--header {choices.header}: {name} has no such row, or it is empty")
+    rows = [row for grid in grids for row in grid.rows[:SHOWN]][:SHOWN]
+    shown = "; ".join(f"{row.where}: {' | '.join(cell[:20] for cell in row.cells[:8])}" for row in rows)
+    return TableError(
+        f"{name}: no row looks like the header of a list of registers (it begins: {shown}); say which row it is with "
+        "--header, or with --header none and --columns at=1,name=2 which columns there are"
+    )
+
+
+def _drafted(page: Page, choices: Choices) -> Draft:
+    if all(column.role != AT for column in page.columns):
+        known = ", ".join(f"`{column.heading or column.called}`" for column in page.columns)
+        message = f"no column has the addresses, of {known}: say with --columns at=.. which one it is"
+        raise TableError(message)
+    layout = lay_out(page.grid, page.header, page.columns)
+    whole = whole_of(layout.items, page.columns, choices, page.title)
+    made = [made_of(item, index, whole, choices, page.grid) for index, item in enumerate(layout.items)]
+    entries = gathered(made)
+    detected = detect([one.detected for one in made if one.detected is not None])
+    units = {unit: keys for one in made for unit, keys in one.declared.items()}
+    return Draft(
+        entries=entries,
+        head={"units": units} if units else {},
+        groups={entry.group: {"source": _source(page)} for entry in entries},
+        stated=tuple(_stated(page, layout, whole, made, choices)),
+        findings=(*page.grid.findings, *layout.findings, *detected, *_unread(page)),
+        recognised=tuple(Recognised(*column.shown) for column in page.columns),
+    )
+
+
+def _source(page: Page) -> str:
+    return f"sheet {page.title}" if page.title else PurePath(page.grid.name).name
+
+
+def _unread(page: Page) -> Iterator[Diagnostic]:
+    """Columns that nobody understands, with what to write to keep them."""
+    for column in page.columns:
+        if not column.role:
+            heading = f"`{column.heading}`" if column.heading else "without a heading"
+            message = f"column {column.called}, {heading}, is not understood and not read"
+            advice = f'--columns description="{column.heading or column.called}" keeps its texts, ROLE=.. reads it'
+            row = page.grid.rows[max(page.header.first, 0)]
+            yield replace(page.grid.warn("column", message, row), help=advice)
+
+
+def _stated(page: Page, layout: Layout, whole: Whole, made: Sequence[Made], choices: Choices) -> Iterator[str]:
+    where = f"sheet {page.title}: " if page.title else ""
+    yield from (f"{where}{text}" for text in whole.stated)
+    codes = Counter(remark.code for one in made for remark in one.entry.remarks)
+    if assumed := codes["order-assumed"]:
+        yield (
+            f"{where}nothing states the order of words of {assumed} registers of several words: the highest word first "
+            "(ABCD) is assumed; check one of them, --word-order little is the other"
+        )
+    if "access" not in whole.headings and choices.access is None:
+        yield f"{where}no column says whether registers can be written: all are read only here (--access)"
+    if layout.headers:
+        yield f"{where}the header is repeated in {layout.headers} rows, which are passed over"

@@ -1,0 +1,121 @@
+"""What a register is called, what its codes and bits mean, whether it can be written."""
+
+from collections.abc import Mapping
+from typing import Any
+
+from regscribe.files import OneLine
+from regscribe.importers.table.cells import Unclear
+from regscribe.importers.table.cells.access import AccessCell, parse_access
+from regscribe.importers.table.cells.enums import Codes, parse_codes
+from regscribe.importers.table.choices import Choices
+from regscribe.importers.table.making import Making
+from regscribe.importers.table.whole import Whole
+from regscribe.model import Access
+from regscribe.model.identifiers import label_id
+from regscribe.visible import INVISIBLE
+
+LONGEST_NAME = 120
+LONGEST_TEXT = 900
+TAKEN = frozenset({"MRO", "NAME", "VALUE"})
+"""Names of members that Python's enums use themselves."""
+
+
+def clean(text: str) -> str:
+    """A text of a cell on one line, without invisible characters and blanks in a row."""
+    return " ".join(INVISIBLE.sub(lambda found: " " if found[0].isspace() else "", text).split())
+
+
+def name_of(making: Making) -> str:
+    """The name of a register: of its column, else its short code, else its description, else by its address."""
+    item = making.item
+    for role in ("name", "symbol", "description"):
+        text = clean(item[role].split("\n")[0] if role == "description" else item[role])
+        if text:
+            if role != "name":
+                making.tell("name-missing", f"no name stands there: it is called by its {role}")
+            return text
+    making.tell("name-missing", "no name stands there: it is called by its address")
+    return f"{str(making.space).title()} {making.at}"
+
+
+def codes_of(making: Making) -> Codes | None:
+    """The codes or bits that the row says, in a column of their own, else in place of a unit or a range."""
+    item, flags = making.item, making.type.kind == "flags" or None
+    for role, bits in (("values", flags), ("bits", True)):
+        found = parse_codes(item[role], flags=bits) if item[role] else None
+        if isinstance(found, Codes):
+            return found
+        if found is not None:
+            making.ask(f"{role}-unclear", found)
+    return _misplaced(making)
+
+
+def _misplaced(making: Making) -> Codes | None:
+    """Codes that stand under range or unit; in a description only where nothing says that the register is a number."""
+    item = making.item
+    number = any(item[role] for role in ("unit", "scale", "decimals", "offset", "range", "min", "max"))
+    for role in ("range", "unit", *(() if number else ("description",))):
+        found = parse_codes(item[role], flags=making.type.kind == "flags" or None) if item[role] else None
+        if isinstance(found, Codes) and len(found.labels) > 1:
+            making.tell("codes-read", f"its codes stand under {role}")
+            if role != "description":
+                item.cells[role] = ""
+            return found
+    return None
+
+
+def add_codes(making: Making, codes: Codes) -> None:
+    """Set enum or flags; labels that say the same get ids that differ."""
+    labels: dict[Any, Any] = _unlike({code: clean(label) for code, label in codes.labels.items()})
+    making.set({"flags" if codes.flags else "enum": OneLine(labels)})
+    for low, high, label in codes.ranges:
+        making.lose(
+            "codes-range", f"the codes {low}..{high} (`{label[:40]}`) are not in the map: an enum names single ones"
+        )
+
+
+def _unlike(labels: Mapping[int, str]) -> dict[int, Any]:
+    """Labels, each with an id of its own where its text alone gives none, or one that another has."""
+    ids: set[str] = set()
+    found: dict[int, Any] = {}
+    for code, label in labels.items():
+        plain = label_id(label)
+        free = plain and plain not in ids and plain.upper() not in TAKEN
+        own = plain if free else f"{plain or 'code'}_{code}".replace("-", "minus_")
+        ids.add(own)
+        found[code] = label if own == plain else OneLine(label=label or f"code {code}", id=own)
+    return found
+
+
+def add_access(making: Making, whole: Whole, choices: Choices) -> None:
+    """Set the access; where it is not stated, a register is read only, and a person is asked."""
+    text = making.item["access"]
+    found = parse_access(text, whole.headings.get("access", ""), making.space)
+    if isinstance(found, AccessCell):
+        making.set({"access": str(found.access)})
+        if found.remark:
+            making.lose("access-remark", f"access `{text[:40]}`: {found.remark}")
+        return
+    given = choices.access
+    if given is not None and not (making.space.write_functions or given is Access.READ):
+        given = Access.READ
+    making.set({"access": str(given or Access.READ)})
+    if isinstance(found, Unclear):
+        making.ask("access-unclear", f"{found.message}; it is read only here")
+    elif given is None and making.space.write_functions and "access" in whole.headings:
+        making.ask("access-missing", "no cell says whether it can be written; it is read only here")
+
+
+def add_texts(making: Making) -> None:
+    """Set short code, description and section."""
+    item = making.item
+    if (symbol := clean(item["symbol"])) and symbol != making.keys.get("name"):
+        making.set({"symbol": symbol[:LONGEST_NAME]})
+    if (description := clean(item["description"])) and description != making.keys.get("name"):
+        making.set({"description": description[:LONGEST_TEXT]})
+        if len(description) > LONGEST_TEXT:
+            making.lose(
+                "description-cut", f"its description has {len(description)} characters; {LONGEST_TEXT} are kept"
+            )
+    if section := clean(item["section"]):
+        making.set({"source": section[:LONGEST_NAME]})

@@ -1,0 +1,242 @@
+"""The number of a register: its type, the order of its words, its scale, its unit, its limits."""
+
+from fractions import Fraction
+
+from regscribe.draft.numbers import plain, unscaled
+from regscribe.importers.table.cells import Unclear
+from regscribe.importers.table.cells.ranges import Limits, parse_limits, parse_number, parse_range, settle_range
+from regscribe.importers.table.cells.scales import PLAIN, Scale, parse_offset
+from regscribe.importers.table.cells.types import TypeCell, parse_order, parse_type
+from regscribe.importers.table.cells.units import UnitCell, parse_unit
+from regscribe.importers.table.choices import Choices
+from regscribe.importers.table.making import LeftOutError, Making
+from regscribe.importers.table.whole import Whole
+from regscribe.model import WireType
+from regscribe_runtime.values.octets import KINDS
+from regscribe_runtime.values.wire_types import Order
+
+MOMENTS = frozenset({WireType.DATETIME, WireType.DATE, WireType.TIME})
+ONE_OF_WORDS = frozenset({WireType.UINT8, WireType.INT8})
+
+
+def add_type(making: Making, whole: Whole, index: int, choices: Choices, *, coded: bool) -> None:
+    """Set type, length and orders; `coded`: the word holds codes or bits, whose sign does not matter.
+
+    Raises LeftOutError where the type is not known.
+    """
+    item = making.item
+    if making.space.is_bits:
+        _type_of_bit(making)
+        return
+    found = parse_type(item["type"], whole.dialect, size=item["length"], gap=whole.gaps[index])
+    if isinstance(found, Unclear):
+        msg = "type-unclear"
+        raise LeftOutError(msg, found.message)
+    making.type = found = found or TypeCell()
+    if found.type is None and found.signed is not None and found.words <= 1:
+        making.type = found = TypeCell(
+            type=WireType.INT16 if found.signed else WireType.UINT16, words=1, kind=found.kind
+        )
+    if found.type is None:
+        _default_type(making, found, choices, coded=coded)
+    _check_type(making)
+    _add_orders(making, choices)
+
+
+def _type_of_bit(making: Making) -> None:
+    text = making.item["type"]
+    if text and not any(word in text.lower() for word in ("bit", "bool", "coil", "discrete", "switch", "bin")):
+        making.tell("type-of-bit", f"type `{text[:40]}`: a {making.space} is one bit")
+
+
+def _default_type(making: Making, found: TypeCell, choices: Choices, *, coded: bool) -> None:
+    if choices.type is not None:
+        making.type = TypeCell(
+            type=choices.type, words=choices.type.words, word_order=found.word_order, byte_order=found.byte_order
+        )
+    elif not (coded and found.words <= 1):
+        said = f"`{making.item['type'][:40]}` does not say it" if making.item["type"] else "no cell says it"
+        message = f"the type is not known: {said}; --type gives one to such rows"
+        msg = "type-missing"
+        raise LeftOutError(msg, message)
+
+
+def _check_type(making: Making) -> None:
+    wire = making.wire
+    if wire in MOMENTS:
+        message = f"type `{making.item['type'][:40]}`: how its words tell a {wire} is not stated (key `layout`)"
+        msg = "layout-missing"
+        raise LeftOutError(msg, message)
+    if wire is not WireType.UINT16:
+        making.set({"type": str(wire)})
+    if wire in KINDS:
+        if not making.type.words:
+            message = f"type `{making.item['type'][:40]}`: how many registers it takes is not known"
+            msg = "length-missing"
+            raise LeftOutError(msg, message)
+        if wire in {WireType.STRING, WireType.BYTES} or making.type.words != wire.words:
+            making.set({"length": making.type.words})
+    if making.type.encoding:
+        making.set({"text": making.type.encoding})
+
+
+def _add_orders(making: Making, choices: Choices) -> None:
+    """Orders by the type, else by a column of their own, else as the user says; the rest is stated for the table."""
+    words, octets = making.type.word_order, making.type.byte_order
+    said = parse_order(making.item["word_order"])
+    if isinstance(said, Unclear):
+        if making.words > 1:
+            msg = "order-unclear"
+            raise LeftOutError(msg, said.message)
+        making.ask("order-unclear", said)
+        said = None
+    if said is not None:
+        if (words and said[0] and words is not said[0]) or (octets and said[1] and octets is not said[1]):
+            message = f"`{making.item['type'][:40]}` and `{making.item['word_order'][:40]}` say different orders"
+            msg = "order-unclear"
+            raise LeftOutError(msg, message)
+        words, octets = words or said[0], octets or said[1]
+    if making.words < 2:  # noqa: PLR2004 - words have an order
+        words = None
+    elif words is None and making.wire not in KINDS:
+        words = choices.word_order
+        if words is None:
+            making.tell("order-assumed", "nothing states the order of its words: the highest first (ABCD) is assumed")
+    making.set({"word_order": str(words)} if words is Order.LITTLE else {})
+    making.set({"byte_order": str(octets)} if octets is Order.LITTLE else {})
+
+
+def add_scale(making: Making, whole: Whole, index: int) -> None:
+    """Set the scale that the row says; where it is unclear, programs get the raw number."""
+    found = _scale(making, whole, index)
+    if isinstance(found, Unclear):
+        making.scale = None
+        making.keys = unscaled(making.keys)
+        making.ask("scale-unclear", f"the scale is unclear, so the number is raw: {found.message}")
+        return
+    making.scale = found
+    making.set(found.keys)
+
+
+def _scale(making: Making, whole: Whole, index: int) -> Scale | Unclear:
+    """The one scale of what scale, decimals, unit and offset say; Unclear where two of them differ."""
+    said: list[Scale] = []
+    for cell in (whole.scales.cells[index], whole.decimals.cells[index]):
+        if isinstance(cell, Unclear):
+            return cell
+        if cell is not None:
+            said.append(cell)
+    unit = parse_unit(making.item["unit"])
+    if isinstance(unit, UnitCell) and unit.factor is not None:
+        said.append(Scale(unit.factor))
+    if len({(one.multiply, one.add) for one in said}) > 1:
+        texts = ", ".join(f"`{making.item[role][:30]}`" for role in ("scale", "decimals", "unit") if making.item[role])
+        return Unclear(f"{texts} say different scales")
+    scale = said[0] if said else PLAIN
+    offset = parse_offset(making.item["offset"])
+    if isinstance(offset, Unclear):
+        return offset
+    if offset and scale.add and scale.add != offset:
+        return Unclear(f"offset `{making.item['offset'][:30]}` and scale `{making.item['scale'][:30]}` differ")
+    return Scale(scale.multiply, scale.add or offset or Fraction(0), scale.unit)
+
+
+def add_unit(making: Making) -> None:
+    """Set the unit, by its symbol in the language, or declare it."""
+    text = making.item["unit"]
+    found = parse_unit(text)
+    if isinstance(found, Unclear):
+        making.ask("unit-unclear", found)
+        return
+    symbol = found.symbol if found is not None else ""
+    beside = making.scale.unit if making.scale is not None else ""
+    if symbol and beside and symbol != beside:
+        making.ask("unit-unclear", f"unit `{text[:30]}`, but the scale says `{beside[:30]}`")
+        return
+    if not (symbol or beside):
+        return
+    making.set({"unit": symbol or beside})
+    if found is not None and not found.known and symbol:
+        making.declared[symbol] = {"description": f"as the source has it: {' '.join(text.split())[:60]}"}
+    if found is not None and found.stated:
+        making.tell("unit-read", found.stated)
+
+
+def add_limits(making: Making, whole: Whole) -> Limits | None:
+    """Set range and return it, in the unit of the value."""
+    item = making.item
+    found = parse_range(item["range"])
+    pair = parse_limits(item["min"], item["max"]) if item["min"] or item["max"] else None
+    if isinstance(pair, Limits) and not whole.limits_stated and pair.low == pair.high:
+        pair = None
+    chosen = found if found is not None else pair
+    if chosen is None:
+        return None
+    settled = chosen if isinstance(chosen, Unclear) else _in_value(making, chosen)
+    if isinstance(settled, Unclear):
+        making.ask("range-unclear", settled)
+        return None
+    limits, stated = settled
+    text = _range_text(limits)
+    if not text:
+        making.lose("range-open", f"a limit alone is no range: `{(item['range'] or item['min'] or item['max'])[:60]}`")
+        return limits
+    making.set({"range": text})
+    if stated:
+        making.tell("range-read", stated)
+    return limits
+
+
+def _in_value(making: Making, limits: Limits) -> tuple[Limits, str] | Unclear:
+    if making.scale is None:
+        return Unclear("a range cannot be read while the scale is unclear")
+    found = settle_range(limits, making.wire, making.scale)
+    return found if isinstance(found, Unclear) else (found.limits, found.stated)
+
+
+def _range_text(limits: Limits) -> str:
+    if limits.low is None or limits.high is None:
+        return ""
+    text = f"{plain(limits.low)}..{plain(limits.high)}"
+    return "" if "/" in text else text
+
+
+def add_default(making: Making) -> Fraction | None:
+    """Set the default and return it, in the unit of the value."""
+    text = making.item["default"]
+    if not text or text in {"-", "--", "n/a", "N/A"}:
+        return None
+    if making.wire is WireType.STRING:
+        making.set({"default": text})
+        return None
+    number = parse_number(text)
+    labels = making.keys.get("enum")
+    if isinstance(labels, dict):
+        return _default_code(making, text, number)
+    if number is None or isinstance(number, Unclear):
+        making.ask("default-unclear", number or f"default `{text[:60]}` is no number")
+        return None
+    settled = _in_value(making, Limits(number, number))
+    if isinstance(settled, Unclear):
+        making.ask("default-unclear", f"default `{text[:60]}`: {settled.message}")
+        return None
+    low = settled[0].low
+    making.set({"default": plain(low)} if low is not None else {})
+    return low
+
+
+def _default_code(making: Making, text: str, number: Fraction | Unclear | None) -> Fraction | None:
+    labels = making.keys["enum"]
+    if isinstance(number, Fraction) and number.denominator == 1 and number.numerator in labels:
+        making.set({"default": number.numerator})
+        return number
+    codes = [code for code, label in labels.items() if _label(label).casefold() == text.casefold()]
+    if len(codes) == 1:
+        making.set({"default": codes[0]})
+        return Fraction(codes[0])
+    making.ask("default-unclear", f"default `{text[:60]}` is none of its codes")
+    return None
+
+
+def _label(label: object) -> str:
+    return str(label["label"]) if isinstance(label, dict) else str(label)

@@ -1,0 +1,141 @@
+"""What only the table as a whole tells: the base of addresses, spaces, dialects, whether scales divide."""
+
+import itertools
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+from regscribe.importers.table.cells import Unclear
+from regscribe.importers.table.cells.addresses import Address, AddressColumn, parse_addresses
+from regscribe.importers.table.cells.addresses import Column as Texts
+from regscribe.importers.table.cells.ranges import stated_limits
+from regscribe.importers.table.cells.scales import ScaleColumn, Way, parse_scales
+from regscribe.importers.table.cells.spaces import SpaceCell, parse_space, parse_spaces
+from regscribe.importers.table.cells.types import Dialect, choose_dialect
+from regscribe.importers.table.choices import Choices, adjusted
+from regscribe.importers.table.columns import Column
+from regscribe.importers.table.headings import AT
+from regscribe.importers.table.layout import Item
+from regscribe.model import Space
+
+Parsed = Address | Unclear | None
+
+
+@dataclass(frozen=True, slots=True)
+class Whole:
+    """What the table says as a whole, row by row where it does; `limits_stated`: equal limits mean limits too."""
+
+    addresses: tuple[Parsed, ...]
+    spaces: tuple[Space | Unclear, ...]
+    gaps: tuple[int, ...]
+    dialect: Dialect
+    scales: ScaleColumn
+    decimals: ScaleColumn
+    limits_stated: bool
+    headings: dict[str, str]
+    stated: tuple[str, ...]
+
+
+def whole_of(items: Sequence[Item], columns: Sequence[Column], choices: Choices, page: str = "") -> Whole:
+    """Read what is decided once for the table; `page` is the name of its sheet, which may tell the space."""
+    headings: dict[str, str] = {}
+    for column in columns:
+        headings.setdefault(column.role, column.heading)
+    said = parse_spaces(_texts(items, "space"), headings.get("space", ""))
+    hints = [_hint(cell, item, page) for cell, item in zip(said.cells, items, strict=True)]
+    found = _addresses(items, columns, hints, choices)
+    spaces = tuple(_space(hint, address, choices) for hint, address in zip(hints, found.cells, strict=True))
+    gaps = gaps_of(found.cells, spaces)
+    dialect = choose_dialect(_texts(items, "type"), _texts(items, "length"), gaps)
+    scales = parse_scales(_texts(items, "scale"), headings.get("scale", ""), way=choices.scale)
+    decimals = parse_scales(_texts(items, "decimals"), headings.get("decimals", ""), way=Way.DECIMALS)
+    pairs = [(item["min"], item["max"]) for item in items if item["min"] or item["max"]]
+    limits_stated, why_limits = stated_limits(pairs) if pairs else (True, "")
+    stated = (
+        found.evidence,
+        said.evidence if "space" in headings else "",
+        _assumed_space(hints, found.cells, choices),
+        *dialect.stated,
+        scales.evidence if "scale" in headings else _no_scale(items, headings),
+        why_limits,
+    )
+    return Whole(
+        found.cells,
+        spaces,
+        gaps,
+        adjusted(dialect.dialect, choices.dialect),
+        scales,
+        decimals,
+        limits_stated,
+        headings,
+        tuple(filter(None, stated)),
+    )
+
+
+def _texts(items: Sequence[Item], role: str) -> list[str]:
+    return [item[role] for item in items]
+
+
+def _addresses(
+    items: Sequence[Item], columns: Sequence[Column], hints: Sequence[Space | Unclear | None], choices: Choices
+) -> AddressColumn:
+    texts = [
+        Texts(column.heading, tuple(item.row.cell(column.index) for item in items))
+        for column in columns
+        if column.role == AT
+    ]
+    spaces = [hint if isinstance(hint, Space) else choices.space for hint in hints]
+    return parse_addresses(texts, spaces=spaces, base=choices.base)
+
+
+def _hint(cell: SpaceCell | Unclear | None, item: Item, page: str) -> Space | Unclear | None:
+    """The space that a row says in a column of its own, else the title of its section, else the name of the sheet."""
+    if isinstance(cell, Unclear):
+        return cell
+    if cell is not None:
+        return cell.space
+    for text in (item.section, page):
+        found = parse_space(text) if text else None
+        if isinstance(found, SpaceCell):
+            return found.space
+    return None
+
+
+def _space(hint: Space | Unclear | None, address: Parsed, choices: Choices) -> Space | Unclear:
+    own = address.space if isinstance(address, Address) else None
+    if isinstance(hint, Unclear):
+        return hint
+    if hint is not None and own is not None and hint is not own:
+        return Unclear(f"the address says {own} and the row says {hint}")
+    return hint or own or choices.space or Space.HOLDING
+
+
+def _assumed_space(hints: Sequence[object], addresses: Sequence[Parsed], choices: Choices) -> str:
+    if choices.space is not None:
+        return ""
+    count = sum(
+        hint is None and isinstance(address, Address) and address.space is None
+        for hint, address in zip(hints, addresses, strict=True)
+    )
+    if not count:
+        return ""
+    return (
+        f"nothing says in which space {count} of {len(hints)} rows are: they are taken as holding registers (--space)"
+    )
+
+
+def _no_scale(items: Sequence[Item], headings: dict[str, str]) -> str:
+    if "decimals" in headings or not any(item["unit"] for item in items):
+        return ""
+    return "no column says a scale: numbers are taken as they are sent, unless their unit has a factor"
+
+
+def gaps_of(addresses: Sequence[Parsed], spaces: Sequence[Space | Unclear]) -> tuple[int, ...]:
+    """The distance from each register to the next of its space; 0 where none follows or the address is not known."""
+    known = sorted(
+        {(str(space), cell.at) for cell, space in zip(addresses, spaces, strict=True) if isinstance(cell, Address)}
+    )
+    after = {one: later[1] - one[1] for one, later in itertools.pairwise(known) if later[0] == one[0]}
+    return tuple(
+        after.get((str(space), cell.at), 0) if isinstance(cell, Address) else 0
+        for cell, space in zip(addresses, spaces, strict=True)
+    )
