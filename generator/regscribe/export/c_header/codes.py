@@ -8,9 +8,6 @@ from regscribe.export.device.names import Names
 from regscribe.losses import Grade
 from regscribe.model import BitField, Member
 
-WIDEST = 64
-"""Bits of the widest whole number of C."""
-
 
 class Codes:
     """Writes what the codes and bits of registers mean; an enum that several have is written once."""
@@ -45,9 +42,6 @@ class Codes:
         yield f"typedef enum {self._written[key]} {self._names.give(f'{name.lower()}_code')};"
 
     def _part(self, point: Point, part: BitField, name: str) -> Iterator[str]:
-        if part.high >= WIDEST:
-            self._lose(point, f"left out: {part.id}, a bit above {WIDEST - 1}", "flags" if part.is_flag else "fields")
-            return
         mask = unsigned(((1 << part.width) - 1) << part.low, hexadecimal=True)
         yield f"#define {self._names.give(f'{name}_MASK')} {mask} /* {remark(part.label)} */"
         if part.is_flag:
@@ -60,9 +54,7 @@ class Codes:
                 yield f"#define {self._names.give(f'{name}_{key}_DEN')} {signed(number.denominator)}"
         gone = [what for what in ("unit", "range", "valid", "sentinels") if getattr(part, what)]
         if gone:
-            self._lose(point, f"left out: {', '.join(gone)} of the part {part.id}", "fields")
+            done = f"left out: {', '.join(gone)} of the part {part.id}"
+            self._device.lose(point.register, "fields", Grade.LOST, done)
         if part.enum:
             yield from self._enum(part.enum.id, part.enum.members, name)
-
-    def _lose(self, point: Point, done: str, fact: str) -> None:
-        self._device.lose(point.register, fact, Grade.LOST, done)

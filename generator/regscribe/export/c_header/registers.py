@@ -4,15 +4,14 @@ from collections.abc import Iterator
 from fractions import Fraction
 from math import ceil, floor
 
-from regscribe.emit.words import condition_words, special_words
+from regscribe.emit.words import condition_words
 from regscribe.export.c_header.codes import Codes
 from regscribe.export.c_header.elements import Entry
 from regscribe.export.c_header.spelling import ORDERS, literal, real, remark, signed, unsigned, whole
 from regscribe.export.device import Device, Point
 from regscribe.export.device.names import Names
 from regscribe.losses import Grade
-from regscribe.model import Kind
-from regscribe.reference import special_value
+from regscribe.model import Kind, show
 from regscribe_runtime.values.octets import TextForm
 
 ACCESS = {"r": 1, "w": 2, "rw": 3}
@@ -130,13 +129,16 @@ class Registers:
             yield f"{key}_MAX", last
 
     def _specials(self, point: Point) -> Iterator[tuple[str, str]]:
-        for special in point.specials:
-            value = special_value(point.register, special, self._device.request.known)
-            text = None if value is None else _number(point, (value - point.offset) / point.slope)
-            if text is None:
-                self._lose(point, "special-value", f"left out: {special.label}, no number on the wire as stated")
+        gone = {one.id for one in point.specials} - {one.id for one in point.special_numbers}
+        for special in point.special_numbers:
+            text = _number(point, Fraction(special.wire))
+            means = f" (reads as {show(special.value)})" if special.value != special.code else ""
+            if text:
+                yield f"SPECIAL_{special.id.upper()}", f"{text} /* {remark(special.label)}{means} */"
             else:
-                yield f"SPECIAL_{special.id.upper()}", f"{text} /* {remark(special_words(special))} */"
+                gone.add(special.id)
+        if gone:
+            self._lose(point, "special-value", f"left out: {', '.join(sorted(gone))}, no number on the wire as stated")
 
 
 def _text(form: TextForm) -> Iterator[tuple[str, str]]:

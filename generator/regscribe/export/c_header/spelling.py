@@ -37,7 +37,7 @@ _LONGEST_DOUBLE = Fraction(10) ** 300
 def remark(text: str) -> str:
     """A text for the inside of a comment: one line that neither ends it nor has a trigraph or a line continuation."""
     plain = safe(one_line(text)).replace("*/", "* /").replace("/*", "/ *").replace("??", "? ?")
-    return plain.replace("??", "? ?").rstrip("\\/*").strip()
+    return plain.replace("??", "? ?").rstrip("\\ ")
 
 
 def literal(text: str) -> str:

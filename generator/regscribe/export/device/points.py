@@ -62,7 +62,7 @@ class Fault(NamedTuple):
 
 
 class SpecialNumber(NamedTuple):
-    """A special value: the number on the wire, the value of use, and what it is called.
+    """A special value: the number on the wire, the value of use, what it is called, and its id.
 
     `code` is that number in the unit, which is no value where it stands for another one.
     """
@@ -71,6 +71,7 @@ class SpecialNumber(NamedTuple):
     value: Fraction
     label: str
     code: Fraction
+    id: str
 
 
 Fits = Callable[[Wire], bool]
@@ -289,7 +290,7 @@ def _special_numbers(
             raise LeftOutError(message)
         number = carried(view, (code - offset) / slope)
         if number is not None:
-            found.append(SpecialNumber(number, code if one.means is None else one.means, one.label, code))
+            found.append(SpecialNumber(number, code if one.means is None else one.means, one.label, code, one.id))
     return tuple(found)
 
 
