@@ -76,7 +76,7 @@ LINK_OF_OPERATIONS = {f"{RUNTIME}.link.{name}" for name in ("links", "timing")}
 """What operations may know of links: what they are like, not how they work."""
 
 LIBRARIES = {
-    "yaml": {"source", "files"},
+    "yaml": {"source", "files", "regscribe.importers.shared.read_yaml"},
     "jsonschema": {"schema"},
     "jinja2": {"emit"},
     "click": {"cli"},

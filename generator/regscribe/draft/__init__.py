@@ -5,7 +5,7 @@ passes, and the report (`regscribe.draft.report`) tells of each entry what was t
 """
 
 from collections.abc import Mapping
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from enum import StrEnum
 from typing import Any
 
@@ -48,7 +48,9 @@ class Entry:
 
     `keys` are those of a register, an array, a command or a computed value in the language, without the `registers` of
     an array, which are its `members`; None: it is left out, and the remarks say why. `place` is the line of the source,
-    `where` the place in people's words if a line says little (`sheet Registers, row 7`).
+    `where` the place in people's words if a line says little (`sheet Registers, row 7`). `parts` are rows which stand
+    together in the keys of this entry (the bits of a word): it is then no row itself, and their own keys are an empty
+    mapping.
     """
 
     name: str
@@ -57,6 +59,7 @@ class Entry:
     remarks: tuple[Remark, ...] = ()
     group: str = "Registers"
     members: tuple["Entry", ...] = ()
+    parts: tuple["Entry", ...] = ()
     where: str = ""
     part: Part = Part.REGISTERS
 
@@ -69,8 +72,18 @@ class Entry:
 
     @property
     def each(self) -> tuple["Entry", ...]:
-        """Itself and all members, also those of arrays in arrays."""
-        return (self, *(inner for member in self.members for inner in member.each))
+        """The rows in it: itself (an array only if there is something to say of it) or its parts, and all members."""
+        own = () if self.members and self.keys is not None and not self.remarks else (self,)
+        return (*(self.parts or own), *(inner for member in self.members for inner in member.each))
+
+    def told(self, remark: Remark, *, keys: Mapping[str, Any] | None) -> "Entry":
+        """Return it with other keys, or left out, and a remark; the remark is for its parts if it has such."""
+        if not self.parts:
+            return replace(self, keys=keys, remarks=(*self.remarks, remark))
+        parts = tuple(
+            replace(one, keys=None if keys is None else one.keys, remarks=(*one.remarks, remark)) for one in self.parts
+        )
+        return replace(self, keys=keys, parts=parts)
 
 
 @dataclass(frozen=True, slots=True)
@@ -114,6 +127,17 @@ class Draft:
     def each(self) -> tuple[Entry, ...]:
         """All entries, those inside arrays too, in the order of the source."""
         return tuple(inner for entry in self.entries for inner in entry.each)
+
+    @property
+    def each_kept(self) -> tuple[Entry, ...]:
+        """All entries that become a part of the map, words in place of their parts."""
+        waiting = list(reversed(self.entries))
+        found: list[Entry] = []
+        while waiting:
+            entry = waiting.pop()
+            found += [] if entry.keys is None else [entry]
+            waiting += reversed(entry.members)
+        return tuple(found)
 
 
 def refused(name: str, message: str, *, line: int = 1, help_text: str = "", rule: str = "import") -> Draft:

@@ -5,7 +5,7 @@ from collections.abc import Mapping
 from dataclasses import replace
 from typing import Any
 
-from regscribe.checks.identifiers import RUNTIME_NAMES
+from regscribe.checks.identifiers import RUNTIME_NAMES, normalised
 from regscribe.draft import Draft, Entry, Part
 from regscribe.model.identifiers import snake
 
@@ -15,7 +15,7 @@ LONGEST = 80
 FALLBACK = "register"
 
 Taken = dict[str, list[Mapping[str, Any]]]
-"""The keys of the entries that have an id."""
+"""The keys of the entries that have an id, by its letters and digits: readers mistake `a_1` for `a1`."""
 
 
 def named(draft: Draft) -> Draft:
@@ -27,7 +27,7 @@ def _named(entries: tuple[Entry, ...]) -> tuple[Entry, ...]:
     taken: Taken = {}
     for entry in entries:
         if entry.keys is not None and "id" in entry.keys:
-            taken.setdefault(str(entry.keys["id"]), []).append(entry.keys)
+            taken.setdefault(normalised(str(entry.keys["id"])), []).append(entry.keys)
     return tuple(_one(entry, taken) for entry in entries)
 
 
@@ -38,25 +38,25 @@ def _one(entry: Entry, taken: Taken) -> Entry:
     if "id" in entry.keys or "set" in entry.keys:
         return replace(entry, members=members)
     usual = snake(str(entry.keys["name"]))
-    own = _free(usual, entry.keys, taken)
-    taken.setdefault(own, []).append(entry.keys)
-    if own == usual:
+    own = free_id(usual, entry.keys, taken)
+    if own == usual and not members:  # an array always says its id
         return replace(entry, members=members)
     first = {key: value for key, value in entry.keys.items() if key in {"at", "name"}}
     return replace(entry, keys={**first, "id": own, **entry.keys}, members=members)
 
 
-def _free(usual: str, keys: Mapping[str, Any], taken: Taken) -> str:
-    """The usual id if it can be one and no other entry of the same models has it; else one like it."""
+def free_id(usual: str, keys: Mapping[str, Any], taken: Taken, fallback: str = FALLBACK) -> str:
+    """Return the usual id if it can be one and no other entry of the same models has it, else one like it; note it."""
     base = usual[:LONGEST].rstrip("_")
     if not base[:1].isalpha():
-        base = f"{FALLBACK}_{base or keys.get('at', '')}"[:LONGEST].rstrip("_")
-    if keyword.iskeyword(base) or base in RUNTIME_NAMES:
-        base = f"{base}_{FALLBACK}"
+        base = f"{fallback}_{base or keys.get('at', '')}"[:LONGEST].rstrip("_")
+    if keyword.iskeyword(base) or keyword.issoftkeyword(base) or base in RUNTIME_NAMES:
+        base = f"{base}_{fallback}"
     found, number = base, 2
-    while any(_together(keys, other) for other in taken.get(found, ())):
+    while any(_together(keys, other) for other in taken.get(normalised(found), ())):
         ending = f"_{number}"
         found, number = f"{base[: LONGEST - len(ending)]}{ending}", number + 1
+    taken.setdefault(normalised(found), []).append(keys)
     return found
 
 

@@ -4,6 +4,7 @@ from collections.abc import Callable, Mapping, Sequence
 from dataclasses import replace
 from typing import Any
 
+from regscribe import source
 from regscribe.draft import Draft, Entry, Remark
 from regscribe.draft.ids import named
 from regscribe.draft.text import Written, text_of
@@ -57,10 +58,13 @@ def _by_entry(written: Written, found: Sequence[Diagnostic]) -> dict[int, tuple[
 
 def _key_at(entry: Entry, line: str, column: int) -> str:
     """The key of the entry whose value stands at a column; empty if it cannot be told, or if the number hangs on it."""
-    places = {key: line.find(f"{key}: ") for key in entry.keys or {}}
-    before = {place: key for key, place in places.items() if 0 <= place < column}
-    key = before[max(before)] if before else ""
-    return key if key in REMOVABLE else ""
+    document, _ = source.parse(line.strip(), name="line")
+    node = document.root.child(0) if document else None
+    margin = len(line) - len(line.lstrip())
+    places = {place.column + margin: key for key, place in ((node and node.keys) or {}).items()}
+    before = [place for place in places if place < column]
+    key = places[max(before)] if before else ""
+    return key if key in REMOVABLE and key in (entry.keys or {}) else ""
 
 
 def _mended(entry: Entry, wrong: Mapping[int, tuple[Diagnostic, str]]) -> Entry:
@@ -69,12 +73,12 @@ def _mended(entry: Entry, wrong: Mapping[int, tuple[Diagnostic, str]]) -> Entry:
         return replace(entry, members=members) if members != entry.members else entry
     one, key = wrong[id(entry)]
     message = one.message
+    mended = replace(entry, members=members)
     if key and entry.keys is not None:
         left = {name: value for name, value in entry.keys.items() if name != key}
-        remark = Remark(CODE, f"{key} `{_shown(entry.keys[key])}` is left out: {message} ({one.rule})", todo=True)
-        return replace(entry, keys=left, members=members, remarks=(*entry.remarks, remark))
-    remark = Remark(CODE, f"left out: {message} ({one.rule})")
-    return replace(entry, keys=None, members=members, remarks=(*entry.remarks, remark))
+        text = f"{key} `{_shown(entry.keys[key])}` is left out: {message} ({one.rule})"
+        return mended.told(Remark(CODE, text, todo=True), keys=left)
+    return mended.told(Remark(CODE, f"left out: {message} ({one.rule})"), keys=None)
 
 
 def _shown(value: object) -> str:

@@ -95,6 +95,8 @@ def _add_entries(out: _Lines, entries: Sequence[Entry], margin: str) -> None:
 
 def _comments(entry: Entry) -> Iterator[str]:
     yield from (f"TODO {safe(remark.message)}" for remark in entry.remarks if remark.todo)
+    for part in entry.parts:
+        yield from (f"TODO {safe(part.name)}: {safe(remark.message)}" for remark in part.remarks if remark.todo)
 
 
 def _one_line(keys: Mapping[str, Any]) -> str:

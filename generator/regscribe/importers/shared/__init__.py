@@ -1,0 +1,1 @@
+"""What importers of other programs' configurations share: trees with lines, points, and a draft made of points."""
