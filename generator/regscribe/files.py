@@ -10,14 +10,14 @@ from collections.abc import Mapping, Sequence
 from contextlib import suppress
 from decimal import Decimal
 from pathlib import Path
-from typing import Any
+from typing import Any, Self
 
 import yaml
 
 from regscribe import schema, source
 from regscribe.model import Diagnostic
 from regscribe.source import Document
-from regscribe.visible import INVISIBLE
+from regscribe.visible import INVISIBLE, safe
 
 MOST_BYTES = 8_000_000
 """The largest of these files have 200 kB; one beyond this is none."""
@@ -63,6 +63,25 @@ class OneLine(dict[str, Any]):
     """A mapping that stands on one line."""
 
 
+class Plain(str):
+    """The decimal text of a number, which stands as that number, exactly so."""
+
+    __slots__ = ()
+
+
+class Tagged(str):
+    """A text under a tag of another program: `!lambda` and lines of code."""
+
+    __slots__ = ("tag",)
+    tag: str
+
+    def __new__(cls, text: str, tag: str) -> Self:
+        """The text under this tag."""
+        found = super().__new__(cls, text)
+        found.tag = tag
+        return found
+
+
 class _Dumper(yaml.SafeDumper):
     """No anchors: equal values stay readable."""
 
@@ -94,7 +113,17 @@ def _number(dumper: yaml.SafeDumper, data: Decimal) -> yaml.Node:
     return dumper.represent_scalar("tag:yaml.org,2002:float" if "." in text else "tag:yaml.org,2002:int", text)
 
 
+def _plain(dumper: yaml.SafeDumper, data: Plain) -> yaml.Node:
+    return dumper.represent_scalar(f"tag:yaml.org,2002:{'float' if '.' in data else 'int'}", str(data))
+
+
+def _tagged(dumper: yaml.SafeDumper, data: Tagged) -> yaml.Node:
+    return dumper.represent_scalar(data.tag, str(data), style="|" if "\n" in data else '"')
+
+
 _Dumper.add_representer(OneLine, _one_line)
+_Dumper.add_representer(Plain, _plain)
+_Dumper.add_representer(Tagged, _tagged)
 _Dumper.add_representer(Decimal, _number)
 _Dumper.add_representer(str, _text)
 
@@ -102,7 +131,7 @@ _Dumper.add_representer(str, _text)
 def dump(data: Mapping[str, Any], *, remarks: Sequence[str] = ()) -> str:
     """A mapping as YAML in the order of its keys; `remarks` become comments above it."""
     body: str = yaml.dump(dict(data), Dumper=_Dumper, sort_keys=False, allow_unicode=True, width=1 << 20)
-    return "".join(f"# {remark}\n" for remark in remarks) + body
+    return "".join(f"# {safe(remark)}\n" for remark in remarks) + body
 
 
 def save(path: Path, content: str | bytes) -> None:

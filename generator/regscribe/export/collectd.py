@@ -34,7 +34,7 @@ SWAPPED = frozenset({WireType.INT32, WireType.UINT32, WireType.FLOAT32})
 LONGEST_NAME = 127
 """collectd cuts longer names off."""
 
-carries: Carries = RESOLVED | dict.fromkeys(("scale", "offset", "array", "group", "limits"), Carry.WHOLE)
+carries: Carries = RESOLVED | dict.fromkeys(("scale", "offset", "array", "limits"), Carry.WHOLE)
 
 
 def _fits(wire: Wire) -> bool:
@@ -67,10 +67,8 @@ def collectd_text(device: Device) -> str:
             lines.append(f"  # {one.done.replace(':', f': {one.register} -', 1)}")
         else:
             lines += _data(device, one)
-    register_map, model = device.register_map, device.model
-    head = f"# {one_line(register_map.title)} {one_line(model.name)} for collectd, from the map {register_map.id}"
-    ends = "LoadPlugin modbus", "<Plugin modbus>", "</Plugin>"
-    return "\n".join([head, *ends[:2], *lines, *_host(device), ends[2]]) + "\n"
+    head = [f"# {line}" for line in device.heading]
+    return "\n".join([*head, "LoadPlugin modbus", "<Plugin modbus>", *lines, *_host(device), "</Plugin>"]) + "\n"
 
 
 def _data(device: Device, point: Point) -> Iterator[str]:

@@ -70,6 +70,8 @@ NODE = {"node": "nodejs", "npm": "npm"}
 
 CONSUMERS = (
     Consumer("c-compiler", programs={"gcc": "gcc", "g++": "g++"}),
+    Consumer("home-assistant", pip=("homeassistant==2024.3.3", "pymodbus==3.6.6")),
+    Consumer("esphome", pip=("esphome==2026.6.5",)),
     Consumer("asyncua", pip=("asyncua==2.1.0",)),
 )
 """Every program, in the order in which they are installed: a new one is a line here and a file test_<name>.py."""

@@ -118,6 +118,17 @@ def _sentinels(register: Register) -> str:
     return f"fault words: {', '.join(one_line(sentinel_words(one)) for one in register.sentinels)}"
 
 
+def _saturation(register: Register) -> str:
+    return "clipped by the device: a number at a limit of its type is no value" * any(
+        v.saturates for v in register.views
+    )
+
+
+def _sentinels_by_case(register: Register) -> str:
+    by_case = any(not one.when.always for one in register.sentinels)
+    return f"by condition, {_sentinels(register)}" if by_case else ""
+
+
 def _fields(register: Register) -> str:
     wide = [one for one in register.fields if not one.is_flag]
     return f"parts of the word: {', '.join(one.id for one in wide)}" if wide else ""
@@ -207,6 +218,8 @@ FACTS = (
     Fact("valid", "limits of a valid reading", LOST, ("valid",), _valid),
     Fact("saturates", "that a reading may be clipped", LOST, ("views",), _saturates),
     Fact("sentinel", "fault words", WRONG, ("sentinels",), lambda one: _sentinels(one) if one.sentinels else ""),
+    Fact("sentinel-condition", "fault words by condition", WRONG, ("sentinels",), _sentinels_by_case, "sentinel"),
+    Fact("saturation", "readings clipped to the limits of a type", WRONG, ("views",), _saturation),
     Fact("special-value", "special values beside the range", LOST, ("specials",), _said("specials", "special values")),
     Fact("enum", "codes with labels", LOST, ("enum",), _said("enum", "its codes have labels")),
     Fact("flags", "named bits", LOST, ("fields", "none"), _flags),
@@ -330,7 +343,7 @@ MOST_WORDS = 125
 RESOLVED: dict[str, Carry] = dict.fromkeys(
     (
         *("condition", "parts-condition", "scale-register", "word-order-register", "unit-register", "range-register"),
-        *("block", "givens"),
+        *("block", "givens", "sentinel-condition"),
     ),
     Carry.FIXED,
 )
@@ -343,7 +356,11 @@ TOLD = {
     "register": "the whole register",
     "scale-rounded": "a scale without a finite decimal",
     "precision-float32": "digits of numbers beyond what a float of 32 bits tells apart",
-    "precision-float64": "digits of scaled numbers beyond what a float of 64 bits tells apart",
+    "precision-float64": "digits of numbers beyond what a float of 64 bits tells apart",
+    "decimals-cut": "decimals of a number that may have any",
+    "several-sentinels": "one of several fault words",
+    "sentinel-label": "what a fault word means",
+    "truth-of-words": "words that are neither 0 nor 1",
     "serial-line": "speed and character format of the serial line",
 }
 """What exporters tell by themselves, by code: what a form makes of a fact, which no fact alone decides."""

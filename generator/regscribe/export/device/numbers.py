@@ -8,6 +8,9 @@ from regscribe.model import show
 DIGITS = 17
 """Significant digits that tell every double from every other."""
 
+EXACT_DOUBLE, EXACT_SINGLE = 1 << 53, 1 << 24
+"""Up to there a float of 64 and of 32 bits tells every whole number from every other."""
+
 
 def decimal(number: Fraction) -> str:
     """The number as decimal text without an exponent: exact where it has an end, else to 17 significant digits."""

@@ -127,6 +127,11 @@ class Point:
         return self.slope != 1 or self.offset != 0
 
     @property
+    def is_truth(self) -> bool:
+        """Whether it is on or off: a bit, or a word that says true or false."""
+        return self.wire.space.is_bits or self.register.kind is Kind.BOOLEAN
+
+    @property
     def decimals(self) -> int | None:
         """How many decimals a value has at most; None for floats, and where a value may have no finite decimal."""
         if self.wire.type.is_float:
