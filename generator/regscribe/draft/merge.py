@@ -5,7 +5,7 @@ map is changed in the places that the list changed; all else in it stays byte fo
 """
 
 from collections.abc import Iterator, Mapping, Sequence
-from dataclasses import dataclass, field, replace
+from dataclasses import dataclass, field
 from enum import StrEnum
 from textwrap import dedent
 from typing import Any
@@ -109,7 +109,8 @@ class _Run:
         if own is not None:
             self.last[register.group] = own
             if differing := [key for key in register.keys if register.keys[key] != own.value(key)]:
-                self.note(Change.KEPT, own, f"new in the list, but you have it already; {', '.join(differing)} differ")
+                message = f"new in the list, but you have it already, with another {' and '.join(differing)}"
+                self.note(Change.KEPT, own, message)
             return
         self.waiting.append((register, self.last.get(register.group)))
 
@@ -282,8 +283,3 @@ def stored(document: Document) -> tuple[Mapping[str, Any], ...]:
 def restored(items: Sequence[Mapping[str, Any]]) -> tuple[MapRegister, ...]:
     """The registers of `stored`."""
     return tuple(MapRegister(str(item["group"]), item["register"], {}, str(item.get("unit_id", ""))) for item in items)
-
-
-def renamed(document: Document, name: str) -> Document:
-    """The document under another name."""
-    return replace(document, name=name)

@@ -8,7 +8,7 @@ import click
 
 from regscribe import plugins
 from regscribe.cli.shared.draft_report import FORMS, report_of
-from regscribe.cli.shared.import_run import Run, code_of, data_of, mapping_of, recognised
+from regscribe.cli.shared.import_run import Run, check_free, code_of, data_of, mapping_of, recognised
 from regscribe.cli.shared.long_work import progress
 from regscribe.cli.shared.output import raised_as, refuse, tell, warn
 from regscribe.cli.shared.plugin_options import PluginCommand, own_options
@@ -66,6 +66,7 @@ def command(  # noqa: PLR0913 - one for each option
         )
     data, name = data_of(source)
     with raised_as(click.ClickException, PluginError, FileError), raised_as(click.UsageError, OptionError):
+        check_free(save_mapping, mapping)
         kept = mapping_of(mapping)
         form = form or kept.importer or recognised(data, name)
         given = own_options(plugins.importer(form), parameters, kept.options)

@@ -102,13 +102,8 @@ class Run:
         save(out, self.text or "")
 
     def save_mapping(self, path: Path, *, imported: bool) -> None:
-        """Write the mapping, with what was imported if the map was written. Raises FileError and OptionError."""
-        own = self.mapping.own
-        if not own or path != self.mapping_path:
-            if path.exists():
-                message = f"{path} exists; nothing of it was changed. Use it with --mapping, or choose another name"
-                raise OptionError(message)
-            own = own or begun(self.form, self.name, {**self.options, **self.draft.settings})
+        """Write the mapping, with what was imported if the map was written. Raises FileError."""
+        own = self.mapping.own or begun(self.form, self.name, {**self.options, **self.draft.settings})
         if imported:
             store_mapping(path, own, stored(_document(self.imported, self.name)))
         else:
@@ -140,6 +135,13 @@ def data_of(origin: str) -> tuple[bytes, str]:
 def mapping_of(path: Path | None) -> ImportMapping:
     """Return the mapping in a file, an empty one without. Raises FileError."""
     return ImportMapping() if path is None else load(path)
+
+
+def check_free(path: Path | None, mapping: Path | None) -> None:
+    """Raise OptionError where a new mapping would take the place of another file than the mapping itself."""
+    if path is not None and path != mapping and path.exists():
+        message = f"{path} exists; nothing of it was changed. Use it with --mapping, or choose another name"
+        raise OptionError(message)
 
 
 def recognised(data: bytes, name: str) -> str:
