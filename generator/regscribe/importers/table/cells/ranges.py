@@ -27,7 +27,7 @@ __all__ = [
 
 
 _SAYS_NOTHING = frozenset({"", "-", "--", "n/a", "na", "n.a.", "none", "*", "?", "."})
-_UNIT = r"(?:[^\W\d_]|[°%µΩ℃℉‰])[^\s0-9;,]{0,11}(?: [CFc]\b)?"
+_UNIT = r"(?!(?:to|bis|tot|till|and|a|à)\b\s*[+-]?\s?[0-9])(?:[^\W\d_]|[°%µΩ℃℉‰])[^\s0-9;,]{0,11}(?: [CFc]\b)?"
 _BETWEEN = r"\.{2,3}|\u2026|~|\bto\b|\bbis\b|\btot\b|\btill\b|\b\u00e0\b|\ba\b|\b\u2013\b|<->|-|;|\band\b"
 _TWO = re.compile(
     rf"(?:from |between |von |de )?(?P<low>{NUMBER})\s*(?:{_UNIT})?\s*(?:{_BETWEEN})\s*"

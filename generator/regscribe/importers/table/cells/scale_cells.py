@@ -159,6 +159,8 @@ def _bare(found: Fraction, way: Way | None, text: str) -> Scale | Unclear:
 def _unread(plain: str, text: str, why: Unclear) -> Scale | Unclear:
     """A cell that is neither: a number with its unit, the name of a register, or something else."""
     if (found := _WITH_UNIT.fullmatch(plain)) and isinstance(factor := number(found["n"]), Fraction):
+        if factor > 1:
+            return Unclear(f"{quoted(text)} may be the step of the value or something else")
         return Scale(factor, unit=found["unit"].strip())
     if _NAME.fullmatch(plain):
         return Unclear(f"the register {quoted(text)} holds the scale, as a power of ten or a number", "`exponent`")
