@@ -6,8 +6,7 @@ from fractions import Fraction
 
 from regscribe.importers.table.cells import Unclear, quoted
 from regscribe.importers.table.cells.limits import Limits
-from regscribe.importers.table.cells.numbers import NUMBER, clean, decimal_comma
-from regscribe.importers.table.cells.numbers import number as parse_number
+from regscribe.importers.table.cells.numbers import NUMBER, clean, decimal_comma, number
 from regscribe.importers.table.cells.range_columns import RangeColumn, Ranged, Settled, settle_range, settle_ranges
 from regscribe.model import show
 
@@ -83,8 +82,8 @@ def _listed(plain: str, text: str, *, comma: bool | None) -> Limits | Unclear:
 
 
 def _both(low: str, high: str, text: str, *, comma: bool | None) -> Limits | Unclear:
-    first = parse_number(low, comma=comma) if low else None
-    last = parse_number(high, comma=comma) if high else None
+    first = number(low, comma=comma) if low else None
+    last = number(high, comma=comma) if high else None
     if isinstance(first, Unclear):
         return first
     if isinstance(last, Unclear):
@@ -92,6 +91,11 @@ def _both(low: str, high: str, text: str, *, comma: bool | None) -> Limits | Unc
     if first is not None and last is not None and first > last:
         return Unclear(f"the range {quoted(text)} ends at {show(last)}, below {show(first)} where it begins")
     return Limits(first, last)
+
+
+def parse_number(text: str, *, comma: bool | None = None) -> Fraction | Unclear | None:
+    """Read one number, of a default for example; None if the cell is empty."""
+    return None if clean(text).casefold() in _SAYS_NOTHING else number(text, comma=comma)
 
 
 def parse_limits(low: str, high: str, *, comma: bool | None = None) -> Limits | Unclear | None:
