@@ -72,6 +72,7 @@ CONSUMERS = (
     Consumer("c-compiler", programs={"gcc": "gcc", "g++": "g++"}),
     Consumer("home-assistant", pip=("homeassistant==2024.3.3", "pymodbus==3.6.6")),
     Consumer("esphome", pip=("esphome==2026.6.5",)),
+    Consumer("zabbix-agent2", programs={"zabbix_agent2": "zabbix-agent2", "node": "nodejs"}),
     Consumer("asyncua", pip=("asyncua==2.1.0",)),
 )
 """Every program, in the order in which they are installed: a new one is a line here and a file test_<name>.py."""
@@ -103,7 +104,7 @@ def _debian(packages: tuple[str, ...]) -> None:
     if os.geteuid() != 0 or not shutil.which("apt-get"):
         sys.exit(f"the interop tests need programs that are not installed here; as root: {by_hand}")
     print(f"installing {', '.join(packages)}", flush=True)  # noqa: T201 (a program of its own)
-    environment = {**os.environ, "DEBIAN_FRONTEND": "noninteractive"}
+    environment = {**os.environ, "DEBIAN_FRONTEND": "noninteractive", "RUNLEVEL": "1"}  # starts no service
     waiting = ["-o", f"DPkg::Lock::Timeout={PATIENCE}"]  # another test run may be installing as well
     for arguments in (["update", "-qq"], ["install", "-y", "-qq", "--no-install-recommends", *packages]):
         _run(["apt-get", *waiting, *arguments], by_hand, environment=environment)

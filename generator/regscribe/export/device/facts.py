@@ -356,6 +356,7 @@ TOLD = {
     "register": "the whole register",
     "scale-rounded": "a scale without a finite decimal",
     "precision-float32": "digits of numbers beyond what a float of 32 bits tells apart",
+    "label-cut": "the end of a label that is too long",
     "precision-float64": "digits of numbers beyond what a float of 64 bits tells apart",
     "decimals-cut": "decimals of a number that may have any",
     "several-sentinels": "one of several fault words",
