@@ -62,9 +62,17 @@ def member_words(member: Member) -> str:
     return f'{member.code} {member.id} "{one_line(member.label)}"{when}'
 
 
-def enum_differences(old: Enum | None, new: Enum | None, access: Access, renames: Renames) -> Iterator[Coded]:
-    """What differs between the codes of two versions; the kind of the value tells where one has none."""
+def enum_differences(
+    old: Enum | None, new: Enum | None, access: Access, renames: Renames, *, same_kind: bool = False
+) -> Iterator[Coded]:
+    """What differs between the codes of two versions; where one has none, another kind of value tells it already."""
     if old is None or new is None:
+        if old is not new and same_kind:
+            effects = Effects(N, H) if old is None else Effects(H, B)
+            words = ("none", "codes") if old is None else ("codes", "none")
+            yield Coded(
+                Difference(CODE_ADDED if old is None else CODE_REMOVED, "meaning of the number", effects, *words)
+            )
         return
     conditions = [plain(case.when, renames) for case in old.cases]
     if conditions != [plain(case.when, renames.now) for case in new.cases]:

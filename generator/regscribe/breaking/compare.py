@@ -7,15 +7,13 @@ from typing import Any
 from regscribe.breaking.change import Change, Difference, Effects, Found, Site
 from regscribe.breaking.facts import B, C, H, N, compared
 from regscribe.breaking.fold import folded
-from regscribe.breaking.map_facts import GIVEN_FACTS, MAP_FACTS, MODEL_FACTS, PROTOCOL_FACTS, SERIAL_FACTS
+from regscribe.breaking.map_facts import MAP_FACTS, MODEL_FACTS, PROTOCOL_FACTS, SERIAL_FACTS
 from regscribe.breaking.names import name_differences
 from regscribe.breaking.pairs import Pairs, paired
 from regscribe.breaking.plain import INDEX, Renames, conditions_in, plain
 from regscribe.breaking.registers import RegisterComparison, Two, pairs_of, renamed_paths
 from regscribe.breaking.rules import (
     EXISTENCE,
-    GIVEN_ADDED,
-    GIVEN_REMOVED,
     MAP_ADDED,
     MAP_REMOVED,
     MAP_RENAMED,
@@ -27,6 +25,7 @@ from regscribe.breaking.rules import (
 from regscribe.breaking.things import NOTES_FACTS, Apart, T, thing_differences, thing_pairs
 from regscribe.emit.words import condition_words
 from regscribe.model import Condition, Register, RegisterMap, Waiver
+from regscribe_runtime.values.conditions import GIVEN
 
 MAP = "map"
 """The subject of what is about a map as a whole."""
@@ -76,13 +75,14 @@ def _map(old: RegisterMap, new: RegisterMap) -> Iterator[Found]:
     site = Site(new.id, "", MAP, new.span, old.span)
     if old.id != new.id:
         yield Found(site, Difference(MAP_RENAMED, "id of the map", Effects(N, B), old.id, new.id))
-    blocks = thing_pairs("block", old.blocks, new.blocks, Renames())
-    names = Renames(
-        blocks={mine.id: theirs.id for mine, theirs in blocks.both if mine.id != theirs.id},
-        conditions=_changed_conditions(old, new),
-    )
+    givens = thing_pairs("given", old.givens, new.givens, Renames())
+    given_names = _ids(givens)
+    names = Renames(givens=given_names, conditions=_changed_conditions(old, new))
+    names = names.with_paths({f"{GIVEN}.{mine}": f"{GIVEN}.{theirs}" for mine, theirs in given_names.items()})
+    blocks = thing_pairs("block", old.blocks, new.blocks, names)
+    names = replace(names, blocks=_ids(blocks))
     models = paired(old.models, new.models, lambda one: one.name, [lambda one: plain(one.registers)])
-    paths: dict[str, str] = {}
+    paths: dict[str, str] = dict(names.paths)
     commands: dict[str, str] = {}
     for mine, theirs in models.both:
         model = _ModelComparison.of(new.id, Two(mine, theirs), names)
@@ -95,7 +95,7 @@ def _map(old: RegisterMap, new: RegisterMap) -> Iterator[Found]:
     for theirs in models.added:
         come = Difference(MODEL_ADDED, "model", Effects(C, C), "none", theirs.name)
         yield Found(Site(new.id, theirs.name, theirs.name, theirs.span), come)
-    renames = replace(names, paths=paths, commands=commands)
+    renames = replace(names, commands=commands).with_paths(paths)
     for name in sorted(names.conditions):
         yield from _condition(name, old, new)
     differences = [
@@ -105,8 +105,7 @@ def _map(old: RegisterMap, new: RegisterMap) -> Iterator[Found]:
         *name_differences(old, new),
     ]
     yield from (Found(site, each) for each in differences)
-    yield from _givens(old, new, renames)
-    for apart in thing_differences("block", blocks, renames):
+    for apart in (*thing_differences("given", givens, renames), *thing_differences("block", blocks, renames)):
         yield _found(apart, site)
 
 
@@ -130,20 +129,6 @@ def _found(apart: Apart, site: Site) -> Found:
     return Found(here, apart.difference)
 
 
-def _givens(old: RegisterMap, new: RegisterMap, renames: Renames) -> Iterator[Found]:
-    pairs = paired(old.givens, new.givens, lambda one: one.id, [])
-    for mine, theirs in pairs.both:
-        site = Site(new.id, "", theirs.id, theirs.span, mine.span)
-        yield from (Found(site, each) for each in compared(GIVEN_FACTS, mine, theirs, renames))
-    for mine in pairs.removed:
-        gone = Difference(GIVEN_REMOVED, "given", Effects(N, B), mine.id, "none")
-        yield Found(Site(new.id, "", mine.id, new.span, mine.span), gone)
-    for theirs in pairs.added:
-        effects = Effects(N, B if theirs.default is None else C)
-        come = Difference(GIVEN_ADDED, "given", effects, "none", theirs.id)
-        yield Found(Site(new.id, "", theirs.id, theirs.span), come)
-
-
 def _conditions(one: RegisterMap | Register) -> dict[str, set[Condition]]:
     """The conditions with names, each in all the forms that it has (in arrays the paths differ)."""
     found: dict[str, set[Condition]] = {}
@@ -156,18 +141,14 @@ def _conditions(one: RegisterMap | Register) -> dict[str, set[Condition]]:
 def _changed_conditions(old: RegisterMap, new: RegisterMap) -> frozenset[str]:
     """The names of conditions that both versions have, with other tests on registers that both call the same."""
     before, after = _conditions(old), _conditions(new)
-    paths = {register.path for one in (old, new) for model in one.models for register in model.registers}
-    both = {path for path in paths if all(_has(one, path) for one in (old, new))}
+    paths = [{register.path for model in one.models for register in model.registers} for one in (old, new)]
+    both = paths[0] & paths[1]
     return frozenset(
         name
         for name in before.keys() & after.keys()
         if {plain(each) for each in before[name]} != {plain(each) for each in after[name]}
         and all(path in both for each in before[name] | after[name] for path in each.registers)
     )
-
-
-def _has(one: RegisterMap, path: str) -> bool:
-    return any(register.path == path for model in one.models for register in model.registers)
 
 
 def _condition(name: str, old: RegisterMap, new: RegisterMap) -> Iterator[Found]:
@@ -193,7 +174,7 @@ class _ModelComparison:
     def of(cls, map_id: str, two: Two, names: Renames) -> "_ModelComparison":
         """Pair all that the model has."""
         registers = pairs_of(two)
-        renames = replace(names, paths=renamed_paths(registers))
+        renames = names.with_paths({**names.paths, **renamed_paths(registers)})
         commands = thing_pairs("command", two.old.commands, two.new.commands, renames)
         renames = replace(renames, commands=_ids(commands))
         groups = thing_pairs("group", two.old.groups, two.new.groups, renames)

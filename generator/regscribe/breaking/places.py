@@ -64,6 +64,9 @@ def differences(old: Seat, new: Seat, renames: Renames) -> Iterator[Placed]:
                 VIEW_SET, "name of the view", Effects(N, B), old.register.base.name, new.register.base.name
             )
             yield renamed, None, None
+    elif old.register.base.name != new.register.base.name:
+        words = old.register.base.name, new.register.base.name
+        yield Difference(VIEW, "base view", Effects(H, H), *words), None, None
     yield from _views_apart(pairs, old.register, new.register)
     moved_base = False
     for mine, theirs in pairs:
@@ -71,7 +74,7 @@ def differences(old: Seat, new: Seat, renames: Renames) -> Iterator[Placed]:
         yield from (
             (each._replace(what=each.what + several), None, None) for each in compared(FACTS, mine, theirs, renames)
         )
-        carried = moved_base and (mine.offset, mine.stride) == (theirs.offset, theirs.stride)
+        carried = moved_base and (mine.space, mine.offset, mine.stride) == (theirs.space, theirs.offset, theirs.stride)
         if not carried:  # else the register moved as a whole
             found = _address(mine, theirs, old, new, several if mine is not old.register.base else "")
             moved_base = moved_base or (found is not None and mine is old.register.base)

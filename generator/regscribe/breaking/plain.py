@@ -5,7 +5,7 @@ The old version is said in the words of the new one: what was renamed has its ne
 
 import re
 from collections.abc import Hashable, Iterator, Mapping
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from enum import Enum as PythonEnum
 from fractions import Fraction
 from types import NoneType
@@ -14,8 +14,10 @@ from typing import Any
 from regscribe.emit.words import one_line
 from regscribe.model import (
     Alarm,
+    Array,
     BitField,
     Command,
+    CommandStep,
     Condition,
     Decimals,
     Effect,
@@ -23,6 +25,7 @@ from regscribe.model import (
     ExceptionCode,
     FrameExample,
     Given,
+    GivenRef,
     Governs,
     Identity,
     IdentityRule,
@@ -46,6 +49,7 @@ from regscribe.model import (
     Ramp,
     Ref,
     Register,
+    RegisterBlock,
     RegisterMap,
     Sentinel,
     SerialDefaults,
@@ -100,6 +104,7 @@ PATHS: Mapping[type, frozenset[str]] = {
     Identity: frozenset({"texts"}),
     Page: frozenset({"selectors"}),
     Register: frozenset({"shadows", "rereads", "follows"}),
+    Array: frozenset({"counted"}),
     Command: frozenset({"step_registers"}),
     Given: frozenset({"register"}),
     ValueExample: frozenset({"register", "state"}),
@@ -107,12 +112,17 @@ PATHS: Mapping[type, frozenset[str]] = {
 }
 """Fields that hold paths of registers, alone or beside numbers and names of outputs."""
 
-COMMANDS: Mapping[type, frozenset[str]] = {
-    ProgramAction: frozenset({"command"}),
-    Register: frozenset({"unlock", "apply"}),
-    FrameExample: frozenset({"command"}),
+IDS: Mapping[type, Mapping[str, str]] = {
+    ProgramAction: {"command": "commands"},
+    Register: {"unlock": "commands", "apply": "commands"},
+    FrameExample: {"command": "commands"},
+    Command: {"group": "groups"},
+    CommandStep: {"block": "blocks"},
+    Is: {"given": "givens"},
+    GivenRef: {"given": "givens"},
+    RegisterBlock: {"given": "givens"},
 }
-"""Fields that hold ids of commands."""
+"""Fields that hold ids of other things, and of which sort these are."""
 
 UNORDERED: Mapping[type, frozenset[str]] = {
     Governs: frozenset({"codes"}),
@@ -140,16 +150,24 @@ INDEX = re.compile(r"\[[^\]]*\]")
 
 @dataclass(frozen=True, slots=True)
 class Renames:
-    """What is called otherwise now, by its old name: paths of registers, ids of commands, groups and blocks.
+    """What is called otherwise now, by its old name: paths of registers, ids of commands, groups, blocks and givens.
 
     `conditions` are names of conditions that are a change of their own; they count as equal wherever they stand.
+    `patterns` are paths without their indices.
     """
 
     paths: Mapping[str, str] = field(default_factory=dict)
     commands: Mapping[str, str] = field(default_factory=dict)
     groups: Mapping[str, str] = field(default_factory=dict)
     blocks: Mapping[str, str] = field(default_factory=dict)
+    givens: Mapping[str, str] = field(default_factory=dict)
     conditions: frozenset[str] = frozenset()
+    patterns: Mapping[str, str] = field(default_factory=dict)
+
+    def with_paths(self, paths: Mapping[str, str]) -> "Renames":
+        """The same with paths."""
+        patterns = {INDEX.sub("[]", old): INDEX.sub("[]", new) for old, new in paths.items() if "[" in old}
+        return replace(self, paths=paths, patterns=patterns)
 
     @property
     def now(self) -> "Renames":
@@ -162,11 +180,10 @@ class Renames:
             return path
         if path in self.paths:
             return self.paths[path]
-        opened = {INDEX.sub("[]", old): INDEX.sub("[]", new) for old, new in self.paths.items() if "[" in old}
         pattern = INDEX.sub("[]", path)
-        if pattern in opened:
+        if pattern in self.patterns:
             indices = iter(INDEX.findall(path))
-            return INDEX.sub(lambda _: next(indices, "[]"), opened[pattern])
+            return INDEX.sub(lambda _: next(indices, "[]"), self.patterns[pattern])
         owner, dot, part = path.rpartition(".")
         return f"{self.path(owner)}.{part}" if dot and self.path(owner) != owner else path
 
@@ -216,8 +233,8 @@ def _renamed(thing: Any, name: str, renames: Renames) -> Any:  # noqa: ANN401 (a
     value = getattr(thing, name)
     if name in PATHS.get(type(thing), ()):
         value = _replaced(value, renames.path)
-    elif name in COMMANDS.get(type(thing), ()):
-        value = renames.commands.get(value, value)
+    elif sort := IDS.get(type(thing), {}).get(name):
+        value = getattr(renames, sort).get(value, value)
     return value
 
 

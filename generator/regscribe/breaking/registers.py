@@ -39,7 +39,7 @@ def pairs_of(two: Two) -> Pairs[Register]:
     """
     known = {register.path for register in two.new.registers}
     before = {register.path for register in two.old.registers}
-    unknown = Renames(dict.fromkeys(known ^ before, "?"))
+    unknown = Renames().with_paths(dict.fromkeys(known ^ before, "?"))
 
     def same(register: Register) -> Hashable:
         return _address(register), _content(register, unknown)
@@ -144,7 +144,9 @@ class RegisterComparison:
             yield Found(
                 site, difference, (self.map_id, cause) if cause is not None else self._views_cause(mine, theirs), moved
             )
-        for coded in codes.enum_differences(mine.enum, theirs.enum, theirs.access, self.renames):
+        for coded in codes.enum_differences(
+            mine.enum, theirs.enum, theirs.access, self.renames, same_kind=mine.kind is theirs.kind
+        ):
             enums = site._replace(span=theirs.enum.span, was=mine.enum.span) if theirs.enum and mine.enum else site
             yield Found(enums if coded.cause is not None else site, coded.difference, coded.cause)
         for difference in (

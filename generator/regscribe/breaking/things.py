@@ -1,16 +1,19 @@
-"""Groups, commands, computed values, programs and blocks: paired by id, then by what they are."""
+"""Groups, commands, computed values, programs, blocks and givens: paired by id, then by what they are."""
 
 from collections.abc import Hashable, Iterator, Mapping, Sequence
 from typing import Any, NamedTuple, Protocol, TypeVar
 
 from regscribe.breaking.change import TEXT_ONLY, Difference, Effects
 from regscribe.breaking.facts import EXACT, B, C, Fact, H, N, compared, judged, text
+from regscribe.breaking.map_facts import GIVEN_FACTS
 from regscribe.breaking.pairs import Pairs, paired
 from regscribe.breaking.plain import Renames, plain_field
 from regscribe.breaking.rules import (
     COMMAND,
     COMPUTED,
     EXISTENCE,
+    GIVEN_ADDED,
+    GIVEN_REMOVED,
     MOVED_GROUP,
     PROGRAM,
     REACH,
@@ -22,7 +25,7 @@ from regscribe.breaking.rules import (
     WRITING,
 )
 from regscribe.emit.words import cases_words, condition_words, map_cases, range_words, term_words
-from regscribe.model import Command, Computed, Group, ProgramNotes, RegisterBlock, Rule, SetpointProgram, Span
+from regscribe.model import Command, Computed, Given, Group, ProgramNotes, RegisterBlock, Rule, SetpointProgram, Span
 
 
 class Thing(Protocol):
@@ -125,6 +128,7 @@ FACTS: Mapping[str, Sequence[Fact[Any]]] = {
     "computed value": COMPUTED_FACTS,
     "program": PROGRAM_FACTS,
     "block": BLOCK_FACTS,
+    "given": GIVEN_FACTS,
 }
 """The facts of each sort."""
 
@@ -136,7 +140,7 @@ def thing_pairs(sort: str, olds: Sequence[T], news: Sequence[T], renames: Rename
     def content(thing: T) -> Hashable:
         mine = renames if id(thing) in ours else renames.now
         members = frozenset(map(mine.path, thing.members)) if isinstance(thing, Group) else ()
-        texts = {"name", "description", "section"}
+        texts = {"name", "description", "section", "reason"}
         names = [name for fact in FACTS[sort] for name in fact.fields if name not in texts]
         return members, tuple(plain_field(thing, name, mine) for name in names)
 
@@ -152,10 +156,13 @@ def thing_differences(sort: str, pairs: Pairs[T], renames: Renames) -> Iterator[
             yield Apart(new.id, renamed, span, was, old.id)
         yield from (Apart(new.id, found, span, was) for found in compared(FACTS[sort], old, new, renames))
     for old in pairs.removed:
-        gone = Difference(THING_REMOVED, sort, Effects(B if sort == "command" else N, B), old.id, "none")
+        rule = GIVEN_REMOVED if isinstance(old, Given) else THING_REMOVED
+        gone = Difference(rule, sort, Effects(B if sort == "command" else N, B), old.id, "none")
         yield Apart(old.id, gone, was=_span(old))
     for new in pairs.added:
-        yield Apart(new.id, Difference(THING_ADDED, sort, Effects(N, C), "none", new.id), _span(new))
+        needed = isinstance(new, Given) and new.default is None
+        rule = GIVEN_ADDED if isinstance(new, Given) else THING_ADDED
+        yield Apart(new.id, Difference(rule, sort, Effects(N, B if needed else C), "none", new.id), _span(new))
 
 
 def _span(thing: object) -> Span | None:

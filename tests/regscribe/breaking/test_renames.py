@@ -1,0 +1,110 @@
+"""What was renamed is one change, whoever refers to it; what cannot be proven stays two."""
+
+from typing import Any
+
+from regscribe.breaking.examples import BASE
+
+
+def told(found: Any) -> list[tuple[str, tuple[str, ...], str, str]]:
+    return [(one.rule.id, one.subjects, one.before, one.after) for one in found]
+
+
+def test_who_refers_to_a_renamed_register_does_not_change(edited: Any) -> None:
+    found = edited(
+        "name: Mode, enum",
+        "id: state, name: Mode, enum",
+        "hot: {mode: heat}",
+        "hot: {state: heat}",
+        "name: Total,",
+        "id: sum, name: Total,",
+        "[total, 2]",
+        "[sum, 2]",
+        "name: Power,",
+        "id: watts, name: Power,",
+        "value: power",
+        "value: watts",
+    )
+    assert told(found) == [
+        ("RS0742", ("state",), "mode", "state"),
+        ("RS0742", ("watts",), "power", "watts"),
+        ("RS0742", ("sum",), "total", "sum"),
+    ]
+
+
+def test_a_renamed_selector_of_a_page_leaves_the_page_as_it_is(edited: Any) -> None:
+    found = edited("name: Bank", "name: Shelf", "page: {bank: 3}", "page: {shelf: 3}", "{bank: 0..5}", "{shelf: 0..5}")
+    assert told(found) == [("RS0742", ("shelf",), "bank", "shelf")]
+
+
+def test_a_renamed_array_is_one_change(edited: Any) -> None:
+    found = edited("id: zones\n        name: Zone", "id: areas\n        name: Zone")
+    assert told(found) == [("RS0742", ("areas[].low", "areas[].high"), "zones[]", "areas[]")]
+    assert len(found[0].registers) == 8
+
+
+def test_a_renamed_member_of_an_array_is_one_change(edited: Any) -> None:
+    found = edited("{at: 1, name: High, type: int16}", "{at: 1, name: Top, type: int16}")
+    assert told(found) == [("RS0742", ("zones[].top",), "zones[].high", "zones[].top")]
+
+
+def test_a_renamed_array_of_a_program_leaves_the_program_as_it_is(edited: Any) -> None:
+    found = edited("id: segments\n", "id: steps\n", "{array: segments,", "{array: steps,")
+    assert told(found) == [("RS0742", ("steps[].target", "steps[].time"), "segments[]", "steps[]")]
+
+
+def test_a_renamed_command_leaves_who_names_it_as_it_is(bench: Any) -> None:
+    old = BASE.replace("name: Offset,", "name: Offset, apply: restart,")
+    new = old.replace("  restart: {", "  reboot: {").replace("apply: restart", "apply: reboot")
+    assert told(bench.compared(old, new).changes) == [("RS0753", ("reboot",), "restart", "reboot")]
+
+
+def test_a_renamed_group_does_not_move_its_registers(edited: Any) -> None:
+    found = edited("  - id: paged\n    name: Paged", "  - id: leaves\n    name: Paged")
+    assert told(found) == [("RS0753", ("leaves",), "paged", "leaves")]
+
+
+def test_a_renamed_given_does_not_change_what_depends_on_it(edited: Any) -> None:
+    found = edited("  ratio: {type", "  turns: {type", "{given: ratio}", "{given: turns}")
+    assert told(found) == [("RS0753", ("turns",), "ratio", "turns")]
+
+
+def test_a_renamed_block_does_not_move_its_registers(edited: Any) -> None:
+    found = edited("  inverter: {chain", "  pump: {chain", "    block: inverter", "    block: pump")
+    assert told(found) == [("RS0753", ("pump",), "inverter", "pump")]
+
+
+def test_a_renamed_flag_is_found_by_its_bit(edited: Any) -> None:
+    assert told(edited("1: alarm}", "1: {label: alarm, id: alert}}")) == [("RS0753", ("status",), "alarm", "alert")]
+
+
+def test_a_moved_and_renamed_register_is_found_by_its_name(edited: Any) -> None:
+    found = edited("at: 13, name: Offset", "at: 15, id: shift, name: Offset")
+    assert told(found) == [
+        ("RS0701", ("shift",), "holding 13", "holding 15"),
+        ("RS0742", ("shift",), "offset", "shift"),
+    ]
+
+
+def test_a_register_that_is_renamed_and_changed_is_not_guessed(edited: Any) -> None:
+    found = edited("name: Offset, type: int16", "name: Gain, type: int16, unit: s")
+    assert told(found) == [
+        ("RS0741", ("offset",), "at holding 13", "none"),
+        ("RS0740", ("gain",), "none", "at holding 13"),
+        ("RS0744", ("gain",), "offset at holding 13", "gain at holding 13"),
+    ]
+
+
+def test_two_alike_registers_that_go_are_not_taken_for_two_that_come(bench: Any) -> None:
+    one = BASE.replace("      - {at: 22, name: Bank", "@      - {at: 22, name: Bank")
+    old = one.replace("@", "      - {at: 30, name: A}\n      - {at: 31, name: B}\n")
+    new = one.replace("@", "      - {at: 32, name: C}\n      - {at: 33, name: D}\n")
+    ids = sorted(one.rule.id for one in bench.compared(old, new).changes)
+    assert ids == ["RS0740", "RS0740", "RS0741", "RS0741"]
+
+
+def test_registers_that_swap_their_addresses_both_moved(edited: Any) -> None:
+    found = edited("at: 3, name: Power", "at: 13, name: Power", "at: 13, name: Offset", "at: 3, name: Offset")
+    assert told(found) == [
+        ("RS0701", ("power",), "holding 3", "holding 13"),
+        ("RS0701", ("offset",), "holding 13", "holding 3"),
+    ]
