@@ -36,12 +36,13 @@ class Printed:
         return replace(self, form="decimal", region=0) if self.has_0x and self.digits.isdecimal() else self
 
     def number(self, base: int) -> int:
-        """The number, of undecided digits in a base."""
-        return int(self.digits, 16 if self.form == "hex" else base)
+        """The number, of digits without a mark in a base; letters are always hexadecimal."""
+        return int(self.digits, base if self.form == "decimal" else 16)
 
     def end(self, base: int) -> int:
         """The last number of a range; the number itself where it is none."""
-        return int(self.last, 16 if self.form == "hex" else base) if self.last else self.number(base)
+        is_decimal = self.form == "decimal" and self.last.isdecimal()
+        return int(self.last, base if is_decimal else 16) if self.last else self.number(base)
 
 
 _SPACES = (
@@ -59,8 +60,8 @@ _NUMBER = (
     r"|[0-9a-f]{1,7}"
 )
 _REGION = r"(?P<region>[134])x\s*|(?:fc?\s*)?(?P<prefix>[0-9]{1,2})\s*:\s*(?=[0-9])"
-_LAST = rf"\s*(?:~|\.\.+|\u2026|-|\bto\b|\bbis\b)\s*(?:[0134]x)?(?P<last>{_NUMBER})"
-_OTHER = r"\s*[/,&+;]\s*(?P<other>[0-9]{1,6})"
+_LAST = rf"\s*(?:~|\.\.+|\u2026|-|\bto\b|\bbis\b)\s*(?:[134]x)?(?P<last>{_NUMBER})"
+_OTHER = r"\s*[/,&+; ]\s*(?P<other>[0-9]{1,6})"
 _BIT_WORD = r"(?:bit|b)\s*"
 _BITS = (
     rf"\s*(?:[.:,_ ]\s*{_BIT_WORD}|\.|[\[(]\s*(?:{_BIT_WORD})?)\s*(?P<low>[0-9]{{1,2}})"
@@ -75,7 +76,7 @@ _GROUPED = re.compile(r"(?<![0-9.])([1-9][0-9]{0,2})[ ,'](?=[0-9]{3}(?![0-9]))")
 def printed(text: str) -> Printed | Unclear:
     """Take a text apart; Unclear if it is no address, or several things at once (`1234/5`)."""
     plain = clean(text)
-    grouped = _GROUPED.sub(r"\1", plain) if not re.search(r"[/~]|\.\.", plain) else plain
+    grouped = plain if re.search(r"[/~]|\.\.", plain) or _is_pair(plain) else _GROUPED.sub(r"\1", plain)
     found = _WHOLE.fullmatch(grouped)
     if not found:
         return Unclear(f"{quoted(text)} is no address")
@@ -97,6 +98,12 @@ def printed(text: str) -> Printed | Unclear:
         has_point_zero=grouped.endswith(".0"),
         has_0x=found["n"].casefold().startswith("0x"),
     )
+
+
+def _is_pair(plain: str) -> bool:
+    """Whether a comma or a blank stands between two addresses that follow each other, and no thousands."""
+    found = re.fullmatch(r"([0-9]{1,9})[ ,]\s*([0-9]{1,9})", plain)
+    return found is not None and int(found[2]) == int(found[1]) + 1
 
 
 def _form(text: str) -> tuple[str, str]:
