@@ -13,14 +13,13 @@ from regscribe.model.units import KNOWN_UNITS, meant_unit
 class UnitCell:
     """The symbol, and the factor that stood before it (None: none).
 
-    `known` is False of a symbol that a map must declare under `units` first. `signed`: a minus stood before the factor,
-    by which some tables say that the number has a sign. `stated` says in a sentence what was read into the text.
+    `known` is False of a symbol that a map must declare under `units` first. `stated` says in a sentence what was read
+    into the text.
     """
 
     symbol: str
     factor: Fraction | None = None
     known: bool = True
-    signed: bool = False
     stated: str = ""
 
 
@@ -48,13 +47,17 @@ _KINDS = frozenset(
 """Words of a unit column that say of what kind the value is."""
 
 _FACTOR = re.compile(
-    r"(?P<n>[+-]?(?:[0-9]+(?:[.,][0-9]+)?|[.,][0-9]+)(?:/[0-9]+)?)\s*[x*\u00d7]?\s*(?P<unit>[^0-9\s].*)"
+    r"[x*\u00d7]?\s*(?P<n>[+-]?(?:[0-9]+(?:[.,][0-9]+)?|[.,][0-9]+)(?:/[0-9]+)?)\s*[x*\u00d7]?\s*(?P<unit>[^0-9\s=:].*)",
+    re.IGNORECASE,
 )
 _POWER = re.compile(r"10\^(?P<n>[+-]?[0-9]{1,2})\s*[x*\u00d7]?\s*(?P<unit>[^0-9\s].*)")
 _QUALIFIER = re.compile(
     r"\s*[(\[]?\b(?:rms|r\.m\.s\.|eff|avg|peak|abs|rel|ac|dc|a\.c\.|d\.c\.)\b\.?[)\]]?", re.IGNORECASE
 )
 _UNIT = re.compile(r"(?:[^\W\d_]|[°%‰µΩ\"'])[^=:;?!<>{}]{0,15}")
+_STRAY_DIGIT = re.compile(r"[0-9]{2}|(?<![^\W\d_^])[0-9]")
+"""Digits that are no exponent (m3) and no index (CO2)."""
+
 MOST_WORDS = 2
 """Words of a unit; what has more is prose."""
 
@@ -96,7 +99,9 @@ def _with_factor(plain: str, text: str) -> UnitCell | Unclear | None:
         return Unclear(f"{quoted(text)} begins with a number that lacks its point, or is no unit")
     if isinstance(factor, Unclear) or not isinstance(symbol, UnitCell) or not factor:
         return Unclear(f"{quoted(text)} is no number with a unit")
-    return UnitCell(symbol.symbol, abs(factor), symbol.known, signed=factor < 0)
+    if factor < 0:
+        return Unclear(f"{quoted(text)} has a negative factor, or says that the number has a sign")
+    return UnitCell(symbol.symbol, factor, symbol.known)
 
 
 def _fraction(text: str) -> Fraction | Unclear:
@@ -118,6 +123,6 @@ def _symbol(plain: str) -> UnitCell | Unclear | None:
         if found in _MILLI_OR_MEGA and bare[:1] != found[0] and bare[:1] in "mM":
             return Unclear(f"{quoted(plain)} may be thousandths or millions", f"`{found}`")
         return UnitCell(found)
-    if _UNIT.fullmatch(plain) and len(plain.split()) <= MOST_WORDS and not re.search(r"[0-9]{2}|\d\s*[-=]", plain):
+    if _UNIT.fullmatch(plain) and len(plain.split()) <= MOST_WORDS and not _STRAY_DIGIT.search(plain):
         return UnitCell(plain, known=False)
     return None
