@@ -55,7 +55,8 @@ ROOMS = {
     "draft": {"model", "source", "checks", "files", "visible"},
     "planned_model": {"model", "reference", "checks", f"{RUNTIME}.planning"},
     "plugins": {"model", "visible", "draft", "losses"},
-    "export": {"model", "dialects", "reference", "checks", "emit", "plugins", "visible", "losses", "files"},
+    "export": {"model", "dialects", "reference", "checks", "emit", "plugins", "visible", "losses", "files"}
+    | {"planned_model", f"{RUNTIME}.planning"},
     "evidence": {"model", "emit", "export"},
     "importers": {"model", "dialects", "source", "emit", "evidence", "files", "draft", "plugins", "visible"},
     "files": {"model", "source", "schema", "visible"},

@@ -16,6 +16,7 @@ from regscribe.model import (
     Conversion,
     Decimals,
     Kind,
+    Layout,
     Order,
     Power,
     Product,
@@ -46,6 +47,7 @@ def register(wire: WireType = WireType.INT16, kind: Kind = Kind.NUMBER, **more: 
 def device(register_map: RegisterMap, known: Surroundings = NOTHING, place: Place = PLACE) -> Device:
     (model,) = register_map.models
     asked = {"registers": model.registers, "named": frozenset(), "name": "oven", "unit": 7, "every": 10, "place": place}
+    asked |= {"layout": Layout({}, {})}
     return device_of(TARGET, Request(register_map=register_map, model=model, known=known, **asked))  # type: ignore[arg-type]  # keywords
 
 

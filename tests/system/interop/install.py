@@ -74,6 +74,8 @@ CONSUMERS = (
     Consumer("esphome", pip=("esphome==2026.6.5",)),
     Consumer("zabbix-agent2", programs={"zabbix_agent2": "zabbix-agent2", "node": "nodejs"}),
     Consumer("asyncua", pip=("asyncua==2.1.0",)),
+    Consumer("node-red", npm=("node-red@4.1.15", "node-red-contrib-modbus@5.23.3"), programs=NODE),
+    Consumer("node-wot", npm=("@node-wot/core@0.8.16", "@node-wot/binding-modbus@0.8.16"), programs=NODE),
 )
 """Every program, in the order in which they are installed: a new one is a line here and a file test_<name>.py."""
 

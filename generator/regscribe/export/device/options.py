@@ -7,7 +7,7 @@ from difflib import get_close_matches
 from fractions import Fraction
 
 from regscribe.checks.held_values import default_values, with_fields
-from regscribe.model import GivenKind, Model, Register, RegisterMap, parse
+from regscribe.model import GivenKind, Layout, Model, Register, RegisterMap, parse
 from regscribe.model.located import layout_of, located
 from regscribe.plugins import Option, OptionError
 from regscribe.reference import Surroundings, surroundings_of
@@ -68,11 +68,13 @@ class Place:
 class Request:
     """What the options ask for: the model as it stands on the device, the registers chosen, state, place, name, poll.
 
-    `named` are paths that were asked for by name. `place` is None where none was said.
+    `layout` is where its blocks stand. `named` are paths that were asked for by name. `place` is None where none was
+    said.
     """
 
     register_map: RegisterMap
     model: Model
+    layout: Layout
     registers: tuple[Register, ...]
     named: frozenset[str]
     known: Surroundings
@@ -90,7 +92,7 @@ def request_of(maps: Sequence[RegisterMap], options: Mapping[str, str], form: st
         message = f"--format {form} is for one device: name one MAP, its --model{where}"
         raise OptionError(message)
     (register_map,) = maps
-    model = _located(register_map, _model(register_map, wanted), _each(options["base"]), form)
+    model, layout = _located(register_map, _model(register_map, wanted), _each(options["base"]), form)
     known = _surroundings(register_map, model, _each(options["with"]), _each(options["given"]))
     registers, named = _chosen(model, _each(options.get("group", "")), _each(options.get("register", "")))
     usual = register_map.default_unit or max(1, register_map.protocol.unit_ids[0])
@@ -102,6 +104,7 @@ def request_of(maps: Sequence[RegisterMap], options: Mapping[str, str], form: st
     return Request(
         register_map=register_map,
         model=model,
+        layout=layout,
         registers=registers,
         named=named,
         known=known,
@@ -150,8 +153,8 @@ def _chosen(
     return tuple(one for one in model.registers if one.path in wanted), frozenset(named)
 
 
-def _located(register_map: RegisterMap, model: Model, texts: Sequence[str], form: str) -> Model:
-    """The model with the blocks whose base is stated, and without the registers of others."""
+def _located(register_map: RegisterMap, model: Model, texts: Sequence[str], form: str) -> tuple[Model, Layout]:
+    """The model with the blocks whose base is stated, without the registers of others, and where the blocks are."""
     try:
         bases = bases_in(register_map.id, register_map.blocks, texts)
     except ValueError as error:
@@ -164,7 +167,7 @@ def _located(register_map: RegisterMap, model: Model, texts: Sequence[str], form
         raise OptionError(message)
     stated = tuple(one for one in model.registers if one.block in bases or not one.block)
     layout = layout_of(register_map, model, bases)
-    return located(replace(model, registers=stated), layout) if blocks else model
+    return located(replace(model, registers=stated), layout) if blocks else model, layout
 
 
 def _surroundings(register_map: RegisterMap, model: Model, state: Sequence[str], givens: Sequence[str]) -> Surroundings:

@@ -1,0 +1,85 @@
+"""Which registers a flow may write, and the table from which it does."""
+
+from fractions import Fraction
+
+from regscribe.export.device import Device, Point
+from regscribe.export.node_red.table import Entry, entry_of, intervals, places_of
+from regscribe.losses import Grade
+from regscribe.model import Kind
+from regscribe.reference import UnknownValueError, choose, decimal_factor, present_view
+
+WRITTEN = frozenset({Kind.NUMBER, Kind.INTEGER, Kind.RAW, Kind.ENUM, Kind.BOOLEAN})
+"""Kinds that are written whole, with no bits of others in the same word and no characters to be checked."""
+
+
+def write_entries(device: Device) -> list[Entry]:
+    """Return how to write each register that can be written, and tell the loss of those that are only read."""
+    found = []
+    for point in device.points:
+        if point.write is None:
+            continue
+        if why := _why_not(device, point):
+            device.lose(point.register, "write", Grade.LOST, f"read only: {why}")
+        else:
+            found.append(_entry(device, point, point.write))
+    return found
+
+
+def _why_not(device: Device, point: Point) -> str:
+    register, view = point.register, point.register.write_view
+    most = device.register_map.protocol.most_written(view.space)
+    reasons = {
+        f"the flow does not write a value of the kind {register.kind}": register.kind not in WRITTEN,
+        "a write needs commands around it": register.unlock or register.apply,
+        "its range is not known as the device is stated": point.ranges is None or point.valid is None,
+        "its smallest step is not known as the device is stated": _step(device, point) == 0,
+        "its words do not stand side by side": point.wire.apart,
+        "its writes must be aligned": view.align > 1,
+        f"a request may write {most} of its {point.words} words": most < point.words,
+        "the device has no function that writes it": not _functions(device, point),
+    }
+    return next((why for why, holds in reasons.items() if holds), "")
+
+
+def _entry(device: Device, point: Point, address: int) -> Entry:
+    said = {key: value for key, value in entry_of(point, point.address).items() if key not in {"bit", "raw", "unit"}}
+    said |= {"fc": _functions(device, point)[0], "address": address, "quantity": point.words}
+    if point.wire.space.is_bits:
+        return said | {"coil": True, "add": "0", "multiply": "1"}
+    return said | _number(device, point)
+
+
+def _number(device: Device, point: Point) -> Entry:
+    every, wire_type = places_of(point.wire, point.view), point.wire.type
+    used = wire_type.bits // 8 if wire_type.spelling and wire_type.bits else len(every)
+    said: Entry = {"bytes": every, "read": list(range(len(every) - used, len(every)))}
+    if point.ranges:
+        said["ranges"] = intervals(point.ranges)
+    if wire_type.is_integer:
+        clips = point.view.saturates
+        said["lowest"], said["highest"] = str(wire_type.minimum + clips), str(wire_type.maximum - clips)
+        # the byte beside a number of one byte is written as 0, other words that a number does not fill with its sign
+        said["bits"] = wire_type.bits if used == 1 else 8 * len(every)
+    if step := _step(device, point):
+        said["step"] = str(step)
+    return said
+
+
+def _step(device: Device, point: Point) -> Fraction | None:
+    """The smallest increment on the wire, None where the map states none; 0 where it is not known now."""
+    known = device.request.known
+    try:
+        conversion = choose(point.register.scale, known)
+        if conversion is None or conversion.step is None:
+            return None
+        factor, view = decimal_factor(conversion.places, known), present_view(point.view, known)
+    except UnknownValueError:
+        return Fraction(0)
+    return Fraction(0) if factor is None or view is None else Fraction(conversion.step) / factor * Fraction(view.factor)
+
+
+def _functions(device: Device, point: Point) -> list[int]:
+    """The functions that write it, that of one word or coil first where the device has it."""
+    known, view = device.register_map.protocol.functions, point.register.write_view
+    usable = [one for one in view.space.write_functions if view.allows(one) and one in known]
+    return [one for one in usable if point.words == 1 or one == view.space.write_functions[-1]]
