@@ -3,9 +3,10 @@
 from collections.abc import Iterable, Iterator
 from itertools import groupby
 
+from regscribe.dialects import LETTERS
 from regscribe.export.c_header.elements import Entry, entries
 from regscribe.export.c_header.registers import Registers
-from regscribe.export.c_header.spelling import ORDERS, TYPES, remark, unsigned
+from regscribe.export.c_header.spelling import TYPES, remark, unsigned
 from regscribe.export.device import Device
 from regscribe.model import Space
 
@@ -15,7 +16,7 @@ SPACES = {one: one.read_function for one in Space if one is not Space.ENRON}
 MEANING = """\
  * value = number on the wire * _SCALE_NUM / _SCALE_DEN + _OFFSET_NUM / _OFFSET_DEN; without _SCALE_NUM it is the number
  * _ADDR: from 0, as in requests   _WORDS: registers (or bits) from there on   _SPACE: the function that reads it
- * _ORDER: what becomes of the bytes A B C D, A the most significant; of a single byte ABCD is the low one of its word
+ * _ORDER: how the bytes A B C D stand on the wire, A the most significant; of a single byte ABCD is that of the low one
  * _ACCESS: 1 read, 2 write, 3 both   _WRITE_ADDR: where it is not _ADDR
  * _RAW_MIN, _RAW_MAX: ends of what may be written, as numbers on the wire; _FAULT_..: numbers that are no values"""
 
@@ -54,7 +55,7 @@ def _numbers(prefix: str, device: Device) -> Iterator[str]:
     yield f"#define {prefix}_WRITE_WORDS_MAX {limits.write_words}u"
     yield ""
     yield from (f"#define {prefix}_SPACE_{space.name} {number}u" for space, number in SPACES.items())
-    yield from (f"#define {prefix}_ORDER_{order} {number}u" for number, order in enumerate(ORDERS.values()))
+    yield from (f"#define {prefix}_ORDER_{order} {number}u" for number, order in enumerate(LETTERS.values()))
     yield from (f"#define {prefix}_TYPE_{kind.upper()} {unsigned(number)}" for number, kind in enumerate(TYPES, 1))
 
 

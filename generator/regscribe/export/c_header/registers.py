@@ -4,10 +4,11 @@ from collections.abc import Iterator
 from fractions import Fraction
 from math import ceil, floor
 
+from regscribe.dialects import LETTERS
 from regscribe.emit.words import condition_words
 from regscribe.export.c_header.codes import Codes
 from regscribe.export.c_header.elements import Entry
-from regscribe.export.c_header.spelling import ORDERS, literal, real, remark, signed, unsigned, whole
+from regscribe.export.c_header.spelling import literal, real, remark, signed, unsigned, whole
 from regscribe.export.device import Device, Point
 from regscribe.export.device.names import Names
 from regscribe.losses import Grade
@@ -73,7 +74,7 @@ class Registers:
         yield "SPACE", f"{self._prefix}_SPACE_{wire.space.name}"
         yield "TYPE", f"{self._prefix}_TYPE_{wire.type.value.upper()}"
         if not wire.space.is_bits:
-            yield "ORDER", f"{self._prefix}_ORDER_{ORDERS[wire.words, wire.bytes]}"  # type: ignore[index]  # what fits
+            yield "ORDER", f"{self._prefix}_ORDER_{LETTERS[wire.words, wire.bytes]}"  # type: ignore[index]  # what fits
         yield "ACCESS", f"{ACCESS[one.access.value]}u"
         if point.unit:
             yield "UNIT", literal(point.unit)

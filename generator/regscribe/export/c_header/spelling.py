@@ -5,7 +5,7 @@ from fractions import Fraction
 
 from regscribe.emit.words import one_line
 from regscribe.export.device.numbers import decimal
-from regscribe.model import Order, WireType
+from regscribe.model import WireType
 from regscribe.visible import safe
 
 LIMIT = 1 << 63
@@ -21,14 +21,6 @@ TYPES = (
     *("string", "bytes", "ipv4", "ipv6", "eui48", "eui64", "datetime", "date", "time"),
 )
 """The types that a header names; each has its place here as its number, which never changes."""
-
-ORDERS = {
-    (Order.BIG, Order.BIG): "ABCD",
-    (Order.LITTLE, Order.BIG): "CDAB",
-    (Order.BIG, Order.LITTLE): "BADC",
-    (Order.LITTLE, Order.LITTLE): "DCBA",
-}
-"""Order of words and of the bytes in a word, by what becomes of the bytes A B C D, A being the most significant."""
 
 _PLAIN = re.compile(r"[ !#-\[\]-~]")
 _LONGEST_DOUBLE = Fraction(10) ** 300
