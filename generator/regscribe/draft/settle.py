@@ -25,6 +25,12 @@ REMOVABLE = frozenset(
 )
 """Keys without which a register's number is still right; where any other is refused, the whole entry is."""
 
+KEYS = ("default", "delivered", "range", "valid", "unit", "special", "enum", "flags")
+"""Those that are tried, in this order, where an error points at an entry and not at a key of it."""
+
+Wrong = dict[int, tuple[Diagnostic, str]]
+"""The first error of each entry, by the entry's identity, with the key that it points at."""
+
 
 def settle(draft: Draft, head: Mapping[str, Any], check: Check) -> tuple[Draft, Written, tuple[Diagnostic, ...]]:
     """Return the draft without what is refused, its text, and what `check` still says of that text.
@@ -39,16 +45,41 @@ def settle(draft: Draft, head: Mapping[str, Any], check: Check) -> tuple[Draft, 
         wrong = _by_entry(written, found)
         if not wrong:
             break
+        wrong |= _tried(draft, wrong, head, check)
         draft = replace(draft, entries=tuple(_mended(entry, wrong) for entry in draft.entries))
         written = text_of(draft, head)
         found = tuple(check(written.text))
     return draft, written, found
 
 
-def _by_entry(written: Written, found: Sequence[Diagnostic]) -> dict[int, tuple[Diagnostic, str]]:
+def _tried(draft: Draft, wrong: Wrong, head: Mapping[str, Any], check: Check) -> Wrong:
+    """The entries whose error points at no key but is gone without one: each key is tried for all of them at once."""
+    settled: Wrong = {}
+    for key in KEYS:
+        left = {
+            id(one) for one in draft.entries if id(one) in wrong and not wrong[id(one)][1] and key in (one.keys or {})
+        }
+        left -= settled.keys()
+        if not left:
+            continue
+        entries = tuple(_without(entry, key) if id(entry) in left else entry for entry in draft.entries)
+        written = text_of(replace(draft, entries=entries), head)
+        still = _by_entry(written, check(written.text))
+        for before, after in zip(draft.entries, entries, strict=True):
+            own = wrong.get(id(before))
+            if id(before) in left and own and (id(after) not in still or still[id(after)][0].rule != own[0].rule):
+                settled[id(before)] = own[0], key
+    return settled
+
+
+def _without(entry: Entry, key: str) -> Entry:
+    return replace(entry, keys={name: value for name, value in (entry.keys or {}).items() if name != key})
+
+
+def _by_entry(written: Written, found: Sequence[Diagnostic]) -> Wrong:
     """The first error of each entry, by the entry's identity, with the key that it points at."""
     lines = written.text.splitlines()
-    wrong: dict[int, tuple[Diagnostic, str]] = {}
+    wrong: Wrong = {}
     for one in found:
         owner = written.owners.get(one.span.line)
         if one.severity is Severity.ERROR and owner is not None:
@@ -67,7 +98,7 @@ def _key_at(entry: Entry, line: str, column: int) -> str:
     return key if key in REMOVABLE and key in (entry.keys or {}) else ""
 
 
-def _mended(entry: Entry, wrong: Mapping[int, tuple[Diagnostic, str]]) -> Entry:
+def _mended(entry: Entry, wrong: Wrong) -> Entry:
     members = tuple(_mended(member, wrong) for member in entry.members)
     if id(entry) not in wrong:
         return replace(entry, members=members) if members != entry.members else entry

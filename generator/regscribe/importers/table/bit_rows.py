@@ -72,7 +72,8 @@ def _word(parent: Entry, bits: Sequence[Made]) -> Entry:
             )
             remarks.append(Remark("bit-doubled", message))
     places = ", ".join(one.entry.where for one in kept[:6]) + (f" and {len(kept) - 6} more" if len(kept) > 6 else "")  # noqa: PLR2004
-    remarks.append(Remark("bits", f"its bits stand in {places}", lossy=False))
+    if [one.entry.where for one in kept] != [parent.where]:
+        remarks.append(Remark("bits", f"its bits stand in {places}", lossy=False))
     single = all(one.bits is not None and one.bits[0] == one.bits[1] for one in kept)
     held = {"flags": _flags(kept)} if single and not any(_more(one) for one in kept) else {"fields": _fields(kept)}
     keys = {key: value for key, value in (parent.keys or {}).items() if key not in {"enum", "flags", "unit", "range"}}

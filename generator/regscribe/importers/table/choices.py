@@ -2,12 +2,13 @@
 
 import re
 from collections.abc import Mapping
-from dataclasses import dataclass, replace
-from typing import Any
+from dataclasses import dataclass
 
+from regscribe.importers.table.cells import Unclear
 from regscribe.importers.table.cells.addresses import base_words
+from regscribe.importers.table.cells.dialects import read_dialect
+from regscribe.importers.table.cells.range_columns import STORED, VALUE
 from regscribe.importers.table.cells.scales import Way
-from regscribe.importers.table.cells.types import Dialect
 from regscribe.importers.table.sheet_structure import Area, area_of
 from regscribe.model import Access, Space, WireType
 from regscribe.plugins import Option, OptionError
@@ -30,7 +31,9 @@ OPTIONS = (
         "word-order", "of numbers of several words, where no row says it: big (ABCD), little (CDAB)", metavar="ORDER"
     ),
     Option("scale", "what a bare number in a scale does: multiply, divide, decimals", metavar="WAY"),
-    Option("dialect", "widths of words: int=16,uint=16,long=32,byte=8,word=16,text=registers", metavar="WORD=BITS"),
+    Option("ranges", f"what ranges and defaults count: {STORED}, {VALUE}", metavar="WORD"),
+    Option("digits", "what 3 and 4 in a column of spaces are: function, region", metavar="WORD"),
+    Option("dialect", "what words of types mean: int=32,text=characters,size=bytes,little=words", metavar="WORD=.."),
 )
 
 RANGE_OF_PAGES = re.compile(r"(\d{1,5})(?:-(\d{1,5}))?")
@@ -54,6 +57,8 @@ class Choices:
     access: Access | None = None
     word_order: Order | None = None
     scale: str = ""
+    ranges: str = ""
+    digits: str = ""
     dialect: str = ""
 
 
@@ -75,7 +80,9 @@ def choices(options: Mapping[str, str]) -> Choices:
         access=Access(text) if (text := _one(texts, "access", [*Access])) else None,
         word_order=Order(text) if (text := _one(texts, "word-order", [*Order])) else None,
         scale=_one(texts, "scale", [*Way]),
-        dialect=_dialect_text(texts.get("dialect", "")),
+        ranges=_one(texts, "ranges", [STORED, VALUE]),
+        digits=_one(texts, "digits", ["function", "region"]),
+        dialect=_dialect(texts.get("dialect", "")),
     )
 
 
@@ -136,26 +143,8 @@ def _area(text: str) -> tuple[float, float, float, float] | None:
     return left, top, right, bottom
 
 
-WIDTHS = {"int": "int_bits", "uint": "uint_bits", "long": "long_bits", "byte": "byte_bits", "word": "word_bits"}
-PAIR = re.compile(r"(int|uint|long|byte|word)=(8|16|32|64)|text=(registers|characters)")
-
-
-def _dialect_text(text: str) -> str:
-    for part in filter(None, text.replace(" ", "").split(",")):
-        if not PAIR.fullmatch(part):
-            message = (
-                f"--dialect {part}: write int=16, uint=16, long=32, byte=8, word=16, text=registers or =characters"
-            )
-            raise OptionError(message)
-    return text.replace(" ", "")
-
-
-def adjusted(dialect: Dialect, text: str) -> Dialect:
-    """The dialect with what `--dialect` says."""
-    for word, _, value in (part.partition("=") for part in text.split(",") if part):
-        if word == "text":
-            dialect = replace(dialect, characters=value == "characters")
-        else:
-            widths: dict[str, Any] = {WIDTHS[word]: int(value)}
-            dialect = replace(dialect, **widths)
-    return dialect
+def _dialect(text: str) -> str:
+    if isinstance(found := read_dialect(text), Unclear):
+        message = f"--dialect: {found.message}"
+        raise OptionError(message)
+    return text

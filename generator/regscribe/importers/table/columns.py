@@ -7,12 +7,14 @@ from regscribe.importers.table.column_words import Asked
 from regscribe.importers.table.contents import CONTENTS, judge
 from regscribe.importers.table.grid import Grid, letters
 from regscribe.importers.table.header import Header
-from regscribe.importers.table.headings import AT, IGNORE, INSIDE, ROLES, SEVERAL, meaning
+from regscribe.importers.table.headings import AT, IGNORE, INSIDE, SEVERAL, meaning
 
 ENOUGH = 0.8
 """Share of the cells of a column without a known heading that must be, say, types."""
 
 FEWEST = 3
+
+BY_USER = "as you said"
 
 
 @dataclass(frozen=True, slots=True)
@@ -37,7 +39,7 @@ def recognise(grid: Grid, header: Header, asked: Asked) -> tuple[Column, ...]:
     texts = texts_below(grid, header)
     roles: dict[int, tuple[str, str]] = {}
     for index, role in asked.at.items():
-        roles[index] = role, "as you said"
+        roles[index] = role, BY_USER
     taken = {role for role, _ in roles.values()} | asked.none
     claims = sorted(
         (unsure, index, role)
@@ -54,7 +56,15 @@ def recognise(grid: Grid, header: Header, asked: Asked) -> tuple[Column, ...]:
         roles[index] = role, evidence
         taken.add(role)
     _by_contents(roles, taken, texts)
+    _name(roles, taken | asked.none)
     return tuple(_column(grid, header, index, roles) for index in range(len(texts)) if _has(header, texts, index))
+
+
+def _name(roles: dict[int, tuple[str, str]], taken: set[str]) -> None:
+    """Let the first description name the registers where no column does."""
+    described = [index for index, (role, why) in sorted(roles.items()) if role == "description" and why != BY_USER]
+    if "name" not in taken and "symbol" not in taken and described:
+        roles[described[0]] = "name", f"{roles[described[0]][1]}, and no column has names"
 
 
 def _has(header: Header, texts: Sequence[Sequence[str]], index: int) -> bool:
@@ -87,8 +97,3 @@ def _by_contents(roles: dict[int, tuple[str, str]], taken: set[str], texts: Sequ
                 roles[index] = role, f"{good} of {len(filled)} cells are such"
                 taken.add(role)
                 break
-
-
-def described(columns: Sequence[Column]) -> str:
-    """The roles that columns have, in words, for messages."""
-    return ", ".join(f"{column.heading or column.called}: {ROLES[column.role]}" for column in columns if column.role)

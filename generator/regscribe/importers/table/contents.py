@@ -12,13 +12,16 @@ from regscribe.importers.table.cells.units import UnitCell, parse_unit
 from regscribe.importers.table.headings import AT, ROLES
 
 HALF = 0.5
+FEWEST = 6
+"""Cells that show whether a column names each row or several rows together."""
+
 SEEN = 400
 """Cells of a column that are looked at."""
 
 ADDRESS = re.compile(r"(?=.*[0-9])[A-Za-z$:]{0,4}[\s#]?[0-9A-Fa-f][\w\s.,:~/\[\]()-]{0,24}")
 """A text that may be an address: a number, perhaps with a prefix, a suffix, a second number."""
 
-DIALECT = Dialect(int_bits=16, uint_bits=16, byte_bits=8, characters=True)
+DIALECT = Dialect(characters=True, size_bits=16, little_bytes=False)
 """Any will do to see whether cells are types."""
 
 
@@ -35,6 +38,11 @@ def is_access(text: str) -> bool:
 def is_type(text: str) -> bool:
     """Whether a text is a type."""
     return isinstance(found := parse_type(text, DIALECT), TypeCell) and found.type is not None
+
+
+def is_size(text: str) -> bool:
+    """Whether a text is a size: a number, perhaps with a word."""
+    return text[:1].isdecimal() or not is_type(text)
 
 
 def is_space(text: str) -> bool:
@@ -58,6 +66,7 @@ CONTENTS: Mapping[str, Callable[[str], bool]] = {"type": is_type, "access": is_a
 _ELSE: Mapping[str, tuple[Callable[[str], bool], Mapping[str, Callable[[str], bool]], str]] = {
     AT: (is_address, {}, "name"),
     "type": (is_type, {"space": is_space, "access": is_access}, "type"),
+    "length": (is_size, {"type": is_type}, "length"),
     "space": (is_space, {"type": is_type}, "description"),
     "access": (lambda text: not isinstance(parse_access(text, "writable"), Unclear), {}, ""),
     "values": (is_codes, {}, "description"),
@@ -69,6 +78,8 @@ def judge(role: str, cells: Sequence[str], *, known: bool) -> tuple[str, str]:
     """The role of a column whose heading claims one, with the evidence; its cells may show that it is another."""
     filled = [cell for cell in cells if cell][:SEEN]
     said = f"a heading for {ROLES[role]}" if known else f"a word for {ROLES[role]} in the heading"
+    if role == "name" and len(filled) >= FEWEST and len(set(filled)) * 2 < len(filled):
+        return "group", f"{said}, but {len(filled)} cells have {len(set(filled))} texts"
     if role not in _ELSE or not filled:
         return role, said
     wanted, others, otherwise = _ELSE[role]

@@ -1,6 +1,5 @@
 """Grids to a draft: which of them have registers, what their columns say, and what became of their rows."""
 
-from collections import Counter
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
 from pathlib import PurePath
@@ -10,11 +9,11 @@ from regscribe.draft import Draft, Recognised
 from regscribe.importers.table.bit_rows import gathered
 from regscribe.importers.table.cells.detect import detect
 from regscribe.importers.table.choices import Choices
-from regscribe.importers.table.column_words import asked, pairs_of
-from regscribe.importers.table.columns import Column, recognise
+from regscribe.importers.table.column_words import NEXT, asked, pairs_of
+from regscribe.importers.table.columns import Column, recognise, texts_below
 from regscribe.importers.table.grid import Grid, TableError
 from regscribe.importers.table.header import Header, at_row, find, without
-from regscribe.importers.table.headings import AT, IGNORE
+from regscribe.importers.table.headings import AT, IGNORE, fold
 from regscribe.importers.table.layout import Layout, lay_out
 from regscribe.importers.table.registers import Made, made_of
 from regscribe.importers.table.whole import Whole, whole_of
@@ -61,7 +60,26 @@ def draft_of(grids: Sequence[Grid], choices: Choices, name: str) -> Draft:
         stated=(*(text for draft in drafts for text in draft.stated), *_passed_over(passed)),
         findings=tuple(one for draft in drafts for one in draft.findings),
         recognised=tuple(one for draft in drafts for one in draft.recognised),
+        settings=_settings(drafts, pages, choices),
     )
+
+
+def _settings(drafts: Sequence[Draft], pages: Sequence[Page], choices: Choices) -> dict[str, str]:
+    """The options by which the next list is read as this one was; of several sheets those alone that count for all."""
+    found = {"sheet": "\n".join(choices.sheets or [page.title for page in pages])}
+    if len(pages) == 1:
+        found |= {**drafts[0].settings, "columns": "\n".join(_pairs(pages[0]))}
+    return {name: text for name, text in found.items() if text}
+
+
+def _pairs(page: Page) -> Iterator[str]:
+    """What each column says, by its heading, or by its letter or number where the heading tells too little."""
+    folded = [fold(heading) for heading in page.header.headings]
+    for column in page.columns:
+        if column.role:
+            own = fold(column.heading)
+            alone = own and folded.count(own) == 1 and not NEXT.search(column.heading)
+            yield f"{column.role}={' '.join(column.heading.split()) if alone else column.called}"
 
 
 def _head(drafts: Sequence[Draft], name: str) -> dict[str, Any]:
@@ -108,7 +126,7 @@ def _drafted(page: Page, choices: Choices) -> Draft:
         raise TableError(message)
     layout = lay_out(page.grid, page.header, page.columns)
     whole = whole_of(layout.items, page.columns, choices, page.title)
-    made = [made_of(item, index, whole, choices, page.grid) for index, item in enumerate(layout.items)]
+    made, counted = made_of(layout.items, whole, choices, page.grid)
     entries = gathered(made)
     detected = detect([one.detected for one in made if one.detected is not None])
     units = {unit: keys for one in made for unit, keys in one.declared.items()}
@@ -116,9 +134,10 @@ def _drafted(page: Page, choices: Choices) -> Draft:
         entries=entries,
         head={"units": units} if units else {},
         groups={entry.group: {"source": _source(page)} for entry in entries},
-        stated=tuple(_stated(page, layout, whole, made, choices)),
+        stated=(*_stated(page, layout, whole, made, choices), *filter(None, [counted])),
         findings=(*page.grid.findings, *layout.findings, *detected, *_unread(page)),
         recognised=tuple(Recognised(*column.shown) for column in page.columns),
+        settings={"base": choices.base or whole.base},
     )
 
 
@@ -127,9 +146,10 @@ def _source(page: Page) -> str:
 
 
 def _unread(page: Page) -> Iterator[Diagnostic]:
-    """Columns that nobody understands, with what to write to keep them."""
+    """Columns with something in them that nobody understands, with what to write to keep them."""
+    filled = [any(cells) for cells in texts_below(page.grid, page.header)]
     for column in page.columns:
-        if not column.role:
+        if not column.role and filled[column.index]:
             heading = f"`{column.heading}`" if column.heading else "without a heading"
             message = f"column {column.called}, {heading}, is not understood and not read"
             advice = f'--columns description="{column.heading or column.called}" keeps its texts, ROLE=.. reads it'
@@ -140,11 +160,11 @@ def _unread(page: Page) -> Iterator[Diagnostic]:
 def _stated(page: Page, layout: Layout, whole: Whole, made: Sequence[Made], choices: Choices) -> Iterator[str]:
     where = f"sheet {page.title}: " if page.title else ""
     yield from (f"{where}{text}" for text in whole.stated)
-    codes = Counter(remark.code for one in made for remark in one.entry.remarks)
-    if assumed := codes["order-assumed"]:
+    if assumed := sum(one.order_assumed for one in made):
+        rows = "1 register" if assumed == 1 else f"{assumed} registers"
         yield (
-            f"{where}nothing states the order of words of {assumed} registers of several words: the highest word first "
-            "(ABCD) is assumed; check one of them, --word-order little is the other"
+            f"{where}nothing states the order of the words of {rows}: the highest first (ABCD) is assumed; check one, "
+            "--word-order little is the other"
         )
     if "access" not in whole.headings and choices.access is None:
         yield f"{where}no column says whether registers can be written: all are read only here (--access)"

@@ -25,7 +25,10 @@ class LeftOutError(Exception):
 
 @dataclass(slots=True)
 class Making:
-    """One row while it becomes a register; `declared` are units that the map must declare."""
+    """One row while it becomes a register.
+
+    `declared` are units that the map must declare; `order_assumed`: nothing states the order of its words.
+    """
 
     item: Item
     at: int
@@ -35,6 +38,7 @@ class Making:
     type: TypeCell = UNKNOWN
     scale: Scale | None = PLAIN
     declared: dict[str, Any] = field(default_factory=dict)
+    order_assumed: bool = False
 
     @property
     def wire(self) -> WireType:

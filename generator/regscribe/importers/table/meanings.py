@@ -40,9 +40,9 @@ def name_of(making: Making) -> str:
 
 def codes_of(making: Making) -> Codes | None:
     """The codes or bits that the row says, in a column of their own, else in place of a unit or a range."""
-    item, flags = making.item, making.type.kind == "flags" or None
+    item, flags, width = making.item, making.type.kind == "flags" or None, 16 * max(making.words, 1)
     for role, bits in (("values", flags), ("bits", True)):
-        found = parse_codes(item[role], flags=bits) if item[role] else None
+        found = parse_codes(item[role], flags=bits, width=width) if item[role] else None
         if isinstance(found, Codes):
             return found
         if found is not None:
@@ -55,11 +55,11 @@ def _misplaced(making: Making) -> Codes | None:
     item = making.item
     number = any(item[role] for role in ("unit", "scale", "decimals", "offset", "range", "min", "max"))
     for role in ("range", "unit", *(() if number else ("description",))):
-        found = parse_codes(item[role], flags=making.type.kind == "flags" or None) if item[role] else None
+        flags = making.type.kind == "flags" or None
+        found = parse_codes(item[role], flags=flags, width=16 * max(making.words, 1)) if item[role] else None
         if isinstance(found, Codes) and len(found.labels) > 1:
             making.tell("codes-read", f"its codes stand under {role}")
-            if role != "description":
-                item.cells[role] = ""
+            item.cells[role] = found.lead if role == "description" else ""
             return found
     return None
 
@@ -67,7 +67,13 @@ def _misplaced(making: Making) -> Codes | None:
 def add_codes(making: Making, codes: Codes) -> None:
     """Set enum or flags; labels that say the same get ids that differ."""
     labels: dict[Any, Any] = _unlike({code: clean(label) for code, label in codes.labels.items()})
+    if codes.flags and codes.none:
+        labels["none"] = clean(codes.none)
     making.set({"flags" if codes.flags else "enum": OneLine(labels)})
+    if codes.other:
+        making.lose("codes-other", f"all other codes are called `{codes.other[:40]}`, which an enum cannot say")
+    if codes.none and not codes.flags:
+        making.lose("codes-none", f"`{codes.none[:40]}` stands for no bit, which an enum cannot say")
     for low, high, label in codes.ranges:
         making.lose(
             "codes-range", f"the codes {low}..{high} (`{label[:40]}`) are not in the map: an enum names single ones"

@@ -4,7 +4,7 @@ from fractions import Fraction
 
 from regscribe.draft.numbers import plain, unscaled
 from regscribe.importers.table.cells import Unclear
-from regscribe.importers.table.cells.ranges import Limits, parse_limits, parse_number, parse_range, settle_range
+from regscribe.importers.table.cells.ranges import Limits, Settled, parse_number
 from regscribe.importers.table.cells.scales import PLAIN, Scale, parse_offset
 from regscribe.importers.table.cells.types import TypeCell, parse_order, parse_type
 from regscribe.importers.table.cells.units import UnitCell, parse_unit
@@ -15,6 +15,7 @@ from regscribe.model import WireType
 from regscribe_runtime.values.octets import KINDS
 from regscribe_runtime.values.wire_types import Order
 
+UNCLEAR_TYPE = "type-unclear"
 MOMENTS = frozenset({WireType.DATETIME, WireType.DATE, WireType.TIME})
 ONE_OF_WORDS = frozenset({WireType.UINT8, WireType.INT8})
 
@@ -40,7 +41,7 @@ def add_type(making: Making, whole: Whole, index: int, choices: Choices, *, code
     if found.type is None:
         _default_type(making, found, choices, coded=coded)
     _check_type(making)
-    _add_orders(making, choices)
+    _add_orders(making, whole, choices)
 
 
 def _type_of_bit(making: Making) -> None:
@@ -63,7 +64,11 @@ def _default_type(making: Making, found: TypeCell, choices: Choices, *, coded: b
 
 def _check_type(making: Making) -> None:
     wire = making.wire
-    if wire in MOMENTS:
+    if making.type.stated:
+        making.tell("type-read", making.type.stated)
+    if wire in MOMENTS and making.type.layout:
+        making.set({"layout": making.type.layout})
+    elif wire in MOMENTS:
         message = f"type `{making.item['type'][:40]}`: how its words tell a {wire} is not stated (key `layout`)"
         msg = "layout-missing"
         raise LeftOutError(msg, message)
@@ -80,10 +85,10 @@ def _check_type(making: Making) -> None:
         making.set({"text": making.type.encoding})
 
 
-def _add_orders(making: Making, choices: Choices) -> None:
+def _add_orders(making: Making, whole: Whole, choices: Choices) -> None:
     """Orders by the type, else by a column of their own, else as the user says; the rest is stated for the table."""
     words, octets = making.type.word_order, making.type.byte_order
-    said = parse_order(making.item["word_order"])
+    said = parse_order(making.item["word_order"], little_bytes=whole.dialect.little_bytes)
     if isinstance(said, Unclear):
         if making.words > 1:
             msg = "order-unclear"
@@ -101,7 +106,7 @@ def _add_orders(making: Making, choices: Choices) -> None:
     elif words is None and making.wire not in KINDS:
         words = choices.word_order
         if words is None:
-            making.tell("order-assumed", "nothing states the order of its words: the highest first (ABCD) is assumed")
+            making.order_assumed = True
     making.set({"word_order": str(words)} if words is Order.LITTLE else {})
     making.set({"byte_order": str(octets)} if octets is Order.LITTLE else {})
 
@@ -129,11 +134,14 @@ def _scale(making: Making, whole: Whole, index: int) -> Scale | Unclear:
     unit = parse_unit(making.item["unit"])
     if isinstance(unit, UnitCell) and unit.factor is not None:
         said.append(Scale(unit.factor))
+        if unit.signed and str(making.wire).startswith("uint"):
+            message = f"unit `{making.item['unit'][:30]}` marks a number with a sign, and its type has none"
+            raise LeftOutError(UNCLEAR_TYPE, message)
     if len({(one.multiply, one.add) for one in said}) > 1:
         texts = ", ".join(f"`{making.item[role][:30]}`" for role in ("scale", "decimals", "unit") if making.item[role])
         return Unclear(f"{texts} say different scales")
     scale = said[0] if said else PLAIN
-    offset = parse_offset(making.item["offset"])
+    offset = parse_offset(making.item["offset"], comma=whole.comma)
     if isinstance(offset, Unclear):
         return offset
     if offset and scale.add and scale.add != offset:
@@ -162,36 +170,23 @@ def add_unit(making: Making) -> None:
         making.tell("unit-read", found.stated)
 
 
-def add_limits(making: Making, whole: Whole) -> Limits | None:
-    """Set range and return it, in the unit of the value."""
-    item = making.item
-    found = parse_range(item["range"])
-    pair = parse_limits(item["min"], item["max"]) if item["min"] or item["max"] else None
-    if isinstance(pair, Limits) and not whole.limits_stated and pair.low == pair.high:
-        pair = None
-    chosen = found if found is not None else pair
-    if chosen is None:
+def add_limits(making: Making, settled: Settled | Unclear | None) -> Limits | None:
+    """Set the range and return it, in the unit of the value."""
+    if settled is None:
         return None
-    settled = chosen if isinstance(chosen, Unclear) else _in_value(making, chosen)
     if isinstance(settled, Unclear):
         making.ask("range-unclear", settled)
         return None
-    limits, stated = settled
-    text = _range_text(limits)
+    text = _range_text(settled.limits)
     if not text:
-        making.lose("range-open", f"a limit alone is no range: `{(item['range'] or item['min'] or item['max'])[:60]}`")
-        return limits
+        item = making.item
+        printed = item["range"] or "..".join(filter(None, (item["min"], item["max"])))
+        making.lose("range-open", f"a limit alone is no range: `{printed[:60]}`")
+        return settled.limits
     making.set({"range": text})
-    if stated:
-        making.tell("range-read", stated)
-    return limits
-
-
-def _in_value(making: Making, limits: Limits) -> tuple[Limits, str] | Unclear:
-    if making.scale is None:
-        return Unclear("a range cannot be read while the scale is unclear")
-    found = settle_range(limits, making.wire, making.scale)
-    return found if isinstance(found, Unclear) else (found.limits, found.stated)
+    if settled.stated:
+        making.tell("range-read", settled.stated)
+    return settled.limits
 
 
 def _range_text(limits: Limits) -> str:
@@ -201,41 +196,48 @@ def _range_text(limits: Limits) -> str:
     return "" if "/" in text else text
 
 
-def add_default(making: Making) -> Fraction | None:
-    """Set the default and return it, in the unit of the value."""
+NOTHING = frozenset({"", "-", "--", "n/a", "na", "none", "?"})
+
+
+def printed_default(making: Making, whole: Whole) -> Fraction | Unclear | None:
+    """The default as printed; of a text or of codes it is set at once."""
     text = making.item["default"]
-    if not text or text in {"-", "--", "n/a", "N/A"}:
+    if text.casefold() in NOTHING:
         return None
     if making.wire is WireType.STRING:
         making.set({"default": text})
         return None
-    number = parse_number(text)
-    labels = making.keys.get("enum")
-    if isinstance(labels, dict):
-        return _default_code(making, text, number)
-    if number is None or isinstance(number, Unclear):
-        making.ask("default-unclear", number or f"default `{text[:60]}` is no number")
+    number = parse_number(text, comma=whole.comma)
+    if isinstance(making.keys.get("enum"), dict):
+        _default_code(making, text, number)
         return None
-    settled = _in_value(making, Limits(number, number))
+    if isinstance(number, Unclear):
+        making.ask("default-unclear", f"default {number.message}")
+        return None
+    return number
+
+
+def add_default(making: Making, settled: Settled | Unclear | None) -> Fraction | None:
+    """Set the default and return it, in the unit of the value."""
     if isinstance(settled, Unclear):
-        making.ask("default-unclear", f"default `{text[:60]}`: {settled.message}")
+        making.ask("default-unclear", f"default `{making.item['default'][:60]}`: {settled.message}")
         return None
-    low = settled[0].low
-    making.set({"default": plain(low)} if low is not None else {})
+    low = settled.limits.low if settled is not None else None
+    if low is not None:
+        making.set({"default": plain(low)})
     return low
 
 
-def _default_code(making: Making, text: str, number: Fraction | Unclear | None) -> Fraction | None:
+def _default_code(making: Making, text: str, number: Fraction | Unclear | None) -> None:
     labels = making.keys["enum"]
     if isinstance(number, Fraction) and number.denominator == 1 and number.numerator in labels:
         making.set({"default": number.numerator})
-        return number
+        return
     codes = [code for code, label in labels.items() if _label(label).casefold() == text.casefold()]
     if len(codes) == 1:
         making.set({"default": codes[0]})
-        return Fraction(codes[0])
+        return
     making.ask("default-unclear", f"default `{text[:60]}` is none of its codes")
-    return None
 
 
 def _label(label: object) -> str:

@@ -1,13 +1,15 @@
 """One row to one register, or to the reasons why it is left out."""
 
-from collections.abc import Mapping
-from dataclasses import dataclass, field
-from typing import TYPE_CHECKING, Any
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, field, replace
+from fractions import Fraction
+from typing import Any
 
-from regscribe.draft import Entry, Remark
+from regscribe.draft import Entry
 from regscribe.importers.table.cells import Unclear
 from regscribe.importers.table.cells.addresses import Address
 from regscribe.importers.table.cells.detect import Row as Detected
+from regscribe.importers.table.cells.ranges import Limits, Ranged, Settled, settle_ranges
 from regscribe.importers.table.cells.scales import PLAIN
 from regscribe.importers.table.cells.types import TypeCell, parse_type
 from regscribe.importers.table.choices import Choices
@@ -15,15 +17,17 @@ from regscribe.importers.table.grid import Grid
 from regscribe.importers.table.layout import Item
 from regscribe.importers.table.making import LeftOutError, Making
 from regscribe.importers.table.meanings import LONGEST_NAME, add_access, add_codes, add_texts, clean, codes_of, name_of
-from regscribe.importers.table.numbers import add_default, add_limits, add_scale, add_type, add_unit
+from regscribe.importers.table.numbers import (
+    add_default,
+    add_limits,
+    add_scale,
+    add_type,
+    add_unit,
+    printed_default,
+)
 from regscribe.importers.table.whole import Whole
 from regscribe.model import Space
 from regscribe_runtime.values.octets import KINDS
-
-if TYPE_CHECKING:
-    from fractions import Fraction
-
-    from regscribe.importers.table.cells.ranges import Limits
 
 GROUP = "Registers"
 
@@ -38,10 +42,40 @@ class Made:
     declared: Mapping[str, Any] = field(default_factory=dict)
     at: int = 0
     space: Space = Space.HOLDING
+    order_assumed: bool = False
 
 
-def made_of(item: Item, index: int, whole: Whole, choices: Choices, grid: Grid) -> Made:
-    """Make a register of a row."""
+@dataclass(frozen=True, slots=True)
+class Half:
+    """A register before its ranges are settled, which takes the whole column; without `making` it is left out."""
+
+    entry: Entry
+    making: Making | None = None
+    bits: tuple[int, int] | None = None
+    limits: Limits | Unclear | None = None
+    default: Fraction | Unclear | None = None
+
+
+def made_of(items: Sequence[Item], whole: Whole, choices: Choices, grid: Grid) -> tuple[list[Made], str]:
+    """Make registers of rows; the sentence says what ranges count, if that had to be found out."""
+    halves = [_half(item, index, whole, choices, grid) for index, item in enumerate(items)]
+    ranged = [_ranged(half, half.limits) for half in halves] + [_ranged(half, half.default) for half in halves]
+    column = settle_ranges(ranged, counts=choices.ranges)
+    ranges, defaults = column.cells[: len(halves)], column.cells[len(halves) :]
+    made = [_made(*parts) for parts in zip(halves, ranges, defaults, strict=True)]
+    return made, column.evidence
+
+
+def _ranged(half: Half, found: Limits | Fraction | Unclear | None) -> Ranged | None:
+    """The limits, or the default as such, with what tells whether they count what is stored."""
+    making = half.making
+    if making is None or making.scale is None or found is None or isinstance(found, Unclear):
+        return None
+    limits = Limits(found, found) if isinstance(found, Fraction) else found
+    return Ranged(limits, making.wire, making.scale)
+
+
+def _half(item: Item, index: int, whole: Whole, choices: Choices, grid: Grid) -> Half:
     entry = Entry(
         name=clean(item["name"] or item["symbol"])[:LONGEST_NAME] or item.row.where,
         place=grid.span(item.row),
@@ -50,18 +84,9 @@ def made_of(item: Item, index: int, whole: Whole, choices: Choices, grid: Grid) 
     )
     try:
         making, address = _begun(item, index, whole)
+        return _grown(making, address, index, whole, choices, entry)
     except LeftOutError as error:
-        return Made(_with(entry, None, (error.remark,)))
-    try:
-        return _finished(making, address, index, whole, choices, entry)
-    except LeftOutError as error:
-        return Made(_with(entry, None, (*making.remarks, error.remark)), at=making.at, space=making.space)
-
-
-def _with(entry: Entry, keys: Mapping[str, Any] | None, remarks: tuple[Remark, ...], name: str = "") -> Entry:
-    return Entry(
-        name=name or entry.name, place=entry.place, keys=keys, remarks=remarks, group=entry.group, where=entry.where
-    )
+        return Half(replace(entry, remarks=(error.remark,)))
 
 
 def _begun(item: Item, index: int, whole: Whole) -> tuple[Making, Address]:
@@ -82,51 +107,61 @@ def _begun(item: Item, index: int, whole: Whole) -> tuple[Making, Address]:
     return making, address
 
 
-def _finished(making: Making, address: Address, index: int, whole: Whole, choices: Choices, entry: Entry) -> Made:
-    item = making.item
-    bits = address.bits or _bit(item)
+def _grown(making: Making, address: Address, index: int, whole: Whole, choices: Choices, entry: Entry) -> Half:
+    """A register with all but range and default. Raises LeftOutError where its number is not understood."""
+    item, bits = making.item, address.bits or _bit(making.item)
     name = name_of(making)
     making.set({"at": making.at, "name": name[:LONGEST_NAME]})
     if len(name) > LONGEST_NAME:
         making.tell("name-cut", f"its name has {len(name)} characters; {LONGEST_NAME} are kept")
     making.set({} if making.space is Space.HOLDING else {"space": str(making.space)})
     add_access(making, whole, choices)
-    kind = parse_type(item["type"], whole.dialect)
+    kind = parse_type(item["type"], whole.dialect, size=item["length"], gap=whole.gaps[index])
     making.type = kind if isinstance(kind, TypeCell) else TypeCell()
     codes = codes_of(making)
     add_type(making, whole, index, choices, coded=codes is not None or bits is not None)
     _check_count(making, address)
-    limits: Limits | None = None
-    default: Fraction | None = None
+    limits: Limits | Unclear | None = None
     if codes is not None:
         add_codes(making, codes)
         _number_of_codes(making, whole, index)
     elif making.wire not in KINDS and not making.space.is_bits:
-        add_unit_and_scale(making, whole, index)
-        limits = add_limits(making, whole)
-    default = add_default(making)
+        add_scale(making, whole, index)  # before the unit, which a scale may say (`1 = 0.1 A`)
+        add_unit(making)
+        limits = whole.limits[index] if item["range"] or item["min"] or item["max"] else None
+        if making.type.kind == "boolean":
+            making.set({"kind": "boolean"})
+    default = printed_default(making, whole)
+    return Half(replace(entry, name=name), making, bits, limits, default)
+
+
+def _made(half: Half, ranged: Settled | Unclear | None, defaulted: Settled | Unclear | None) -> Made:
+    making = half.making
+    if making is None:
+        return Made(half.entry)
+    lost = Unclear("it cannot be read while the scale is unclear") if making.scale is None else None
+    if isinstance(half.limits, Unclear):
+        ranged = half.limits
+    limits = add_limits(making, (half.limits and lost) or ranged)
+    default = add_default(making, (lost if half.default is not None else None) or defaulted)
     add_texts(making)
+    codes = making.keys.get("enum")
     detected = Detected(
-        name=name,
-        place=entry.place,
-        where=entry.where,
+        name=half.entry.name,
+        place=half.entry.place,
+        where=half.entry.where,
         space=making.space,
         at=making.at,
         words=making.words,
         wire=making.wire,
-        bits=bits,
+        bits=half.bits,
         limits=limits,
         default=default,
         scale=making.scale or PLAIN,
+        codes=frozenset(codes) if isinstance(codes, dict) else frozenset(),
     )
-    done = _with(entry, making.keys, tuple(making.remarks), name)
-    return Made(done, detected, bits, making.declared, making.at, making.space)
-
-
-def add_unit_and_scale(making: Making, whole: Whole, index: int) -> None:
-    """Set scale and unit, in this order: a scale may say the unit (`1 = 0.1 A`)."""
-    add_scale(making, whole, index)
-    add_unit(making)
+    entry = replace(half.entry, keys=making.keys, remarks=tuple(making.remarks))
+    return Made(entry, detected, half.bits, making.declared, making.at, making.space, making.order_assumed)
 
 
 def _bit(item: Item) -> tuple[int, int] | None:

@@ -7,22 +7,31 @@ from dataclasses import dataclass
 from regscribe.importers.table.cells import Unclear
 from regscribe.importers.table.cells.addresses import Address, AddressColumn, parse_addresses
 from regscribe.importers.table.cells.addresses import Column as Texts
-from regscribe.importers.table.cells.ranges import stated_limits
-from regscribe.importers.table.cells.scales import ScaleColumn, Way, parse_scales
+from regscribe.importers.table.cells.dialects import Dialect, choose_dialect
+from regscribe.importers.table.cells.numbers import decimal_comma
+from regscribe.importers.table.cells.ranges import Limits, parse_limits, parse_range, stated_limits
+from regscribe.importers.table.cells.scales import Hint, ScaleColumn, Way, parse_scales
 from regscribe.importers.table.cells.spaces import SpaceCell, parse_space, parse_spaces
-from regscribe.importers.table.cells.types import Dialect, choose_dialect
-from regscribe.importers.table.choices import Choices, adjusted
+from regscribe.importers.table.cells.types import TypeCell, parse_type
+from regscribe.importers.table.choices import Choices
 from regscribe.importers.table.columns import Column
 from regscribe.importers.table.headings import AT
 from regscribe.importers.table.layout import Item
-from regscribe.model import Space
+from regscribe.model import Space, WireType
+
+NUMBERS = ("scale", "offset", "range", "min", "max", "default")
+"""Columns of numbers, which write fractions alike."""
 
 Parsed = Address | Unclear | None
 
 
 @dataclass(frozen=True, slots=True)
 class Whole:
-    """What the table says as a whole, row by row where it does; `limits_stated`: equal limits mean limits too."""
+    """What the table says as a whole, row by row where it does.
+
+    `limits` are ranges as printed; `comma`: whether commas are decimal points (None: nothing shows it); `base` is what
+    the option of that name would say.
+    """
 
     addresses: tuple[Parsed, ...]
     spaces: tuple[Space | Unclear, ...]
@@ -30,9 +39,11 @@ class Whole:
     dialect: Dialect
     scales: ScaleColumn
     decimals: ScaleColumn
-    limits_stated: bool
+    limits: tuple[Limits | Unclear | None, ...]
+    comma: bool | None
     headings: dict[str, str]
     stated: tuple[str, ...]
+    base: str
 
 
 def whole_of(items: Sequence[Item], columns: Sequence[Column], choices: Choices, page: str = "") -> Whole:
@@ -40,35 +51,54 @@ def whole_of(items: Sequence[Item], columns: Sequence[Column], choices: Choices,
     headings: dict[str, str] = {}
     for column in columns:
         headings.setdefault(column.role, column.heading)
-    said = parse_spaces(_texts(items, "space"), headings.get("space", ""))
+    said = parse_spaces(_texts(items, "space"), headings.get("space", ""), digits=choices.digits)
     hints = [_hint(cell, item, page) for cell, item in zip(said.cells, items, strict=True)]
     found = _addresses(items, columns, hints, choices)
     spaces = tuple(_space(hint, address, choices) for hint, address in zip(hints, found.cells, strict=True))
     gaps = gaps_of(found.cells, spaces)
-    dialect = choose_dialect(_texts(items, "type"), _texts(items, "length"), gaps)
-    scales = parse_scales(_texts(items, "scale"), headings.get("scale", ""), way=choices.scale)
-    decimals = parse_scales(_texts(items, "decimals"), headings.get("decimals", ""), way=Way.DECIMALS)
-    pairs = [(item["min"], item["max"]) for item in items if item["min"] or item["max"]]
-    limits_stated, why_limits = stated_limits(pairs) if pairs else (True, "")
+    choice = choose_dialect(_texts(items, "type"), _texts(items, "length"), gaps, said=choices.dialect)
+    comma = decimal_comma(text for role in NUMBERS for text in _texts(items, role))
+    limits, why_limits = _limits(items, comma)
+    types = [_wire(item, choice.dialect, gap, choices) for item, gap in zip(items, gaps, strict=True)]
+    hints_of_scale = [
+        Hint(one.numbers, wire) if isinstance(one, Limits) and wire is not None else None
+        for one, wire in zip(limits, types, strict=True)
+    ]
+    heading = headings.get("scale", "")
+    scales = parse_scales(_texts(items, "scale"), heading, way=choices.scale, hints=hints_of_scale)
+    decimals = parse_scales(_texts(items, "decimals"), way=Way.DECIMALS)
     stated = (
         found.evidence,
         said.evidence if "space" in headings else "",
         _assumed_space(hints, found.cells, choices),
-        *dialect.stated,
+        *choice.stated,
         scales.evidence if "scale" in headings else _no_scale(items, headings),
         why_limits,
     )
+    plain = tuple(filter(None, stated))
     return Whole(
-        found.cells,
-        spaces,
-        gaps,
-        adjusted(dialect.dialect, choices.dialect),
-        scales,
-        decimals,
-        limits_stated,
-        headings,
-        tuple(filter(None, stated)),
+        found.cells, spaces, gaps, choice.dialect, scales, decimals, limits, comma, headings, plain, found.words
     )
+
+
+def _limits(items: Sequence[Item], comma: bool | None) -> tuple[tuple[Limits | Unclear | None, ...], str]:  # noqa: FBT001 - three states
+    """The ranges as printed, of one column or of two; equal ends may state nothing."""
+    pairs = [(item["min"], item["max"]) for item in items if item["min"] or item["max"]]
+    stated, why = stated_limits(pairs) if pairs else (True, "")
+    found: list[Limits | Unclear | None] = []
+    for item in items:
+        one = parse_range(item["range"], comma=comma)
+        if one is None and (item["min"] or item["max"]):
+            one = parse_limits(item["min"], item["max"], comma=comma)
+            if isinstance(one, Limits) and not stated and one.low == one.high:
+                one = None
+        found.append(one)
+    return tuple(found), why
+
+
+def _wire(item: Item, dialect: Dialect, gap: int, choices: Choices) -> WireType | None:
+    found = parse_type(item["type"], dialect, size=item["length"], gap=gap)
+    return (found.type if isinstance(found, TypeCell) else None) or choices.type
 
 
 def _texts(items: Sequence[Item], role: str) -> list[str]:
@@ -130,12 +160,12 @@ def _no_scale(items: Sequence[Item], headings: dict[str, str]) -> str:
 
 
 def gaps_of(addresses: Sequence[Parsed], spaces: Sequence[Space | Unclear]) -> tuple[int, ...]:
-    """The distance from each register to the next of its space; 0 where none follows or the address is not known."""
+    """The registers of each row: of its range, else the distance to the next of its space; 0 where neither is known."""
     known = sorted(
         {(str(space), cell.at) for cell, space in zip(addresses, spaces, strict=True) if isinstance(cell, Address)}
     )
     after = {one: later[1] - one[1] for one, later in itertools.pairwise(known) if later[0] == one[0]}
     return tuple(
-        after.get((str(space), cell.at), 0) if isinstance(cell, Address) else 0
+        (cell.count or after.get((str(space), cell.at), 0)) if isinstance(cell, Address) else 0
         for cell, space in zip(addresses, spaces, strict=True)
     )

@@ -18,7 +18,7 @@ class AccessCell:
 
 _SAYS_NOTHING = frozenset({"", "-", "--", "n/a", "?"})
 _READ = (
-    r"r|ro|r o|rd|rof|read|reading|readable|read only|get|lesen|lesend|nur lesen|lese|lesbar|lecture|lecture seule"
+    r"r|l|ro|r o|rd|rof|read|reading|readable|read only|get|lesen|lesend|nur lesen|lese|lesbar|lecture|lecture seule"
     r"|lettura|sola lettura|lectura|solo lectura|lezen|alleen lezen|l\u00e4s|l\u00e4sning|odczyt|leitura"
     r"|\u53ea\u8bfb|\u8bfb"
 )
@@ -26,7 +26,7 @@ _WRITE = (
     r"w|wo|w o|wd|wr|write|writing|writable|write only|set|schreiben|nur schreiben|schreibbar|schreibend"
     r"|\u00e9criture|ecriture|scrittura|escritura|schrijven|skriv|skrivning|zapis|escrita|\u53ea\u5199|\u5199"
 )
-_BOTH = r"rw|wr|rwd|rwc|r w|read write|lesen schreiben|\u8bfb\u5199|read and write|read or write"
+_BOTH = r"rw|wr|rwd|rwc|r w|l s|l e|ls|le|read write|lesen schreiben|\u8bfb\u5199|read and write|read or write"
 _YES = frozenset({"yes", "y", "ja", "oui", "si", "sí", "sì", "true", "1", "x", "tak", "✓", "✔", "是"})
 _NO = frozenset({"no", "n", "nein", "non", "false", "0", "nie", "nee", "nej", "\u5426"})
 

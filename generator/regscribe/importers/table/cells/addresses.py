@@ -41,13 +41,15 @@ class AddressColumn:
     """The addresses of all rows (None: the cell is empty).
 
     `notation` names how they are written, `evidence` says in a sentence why they are read so and how to say otherwise.
-    `assumed`: nothing in the table shows from what the addresses count, so a person must check one of them.
+    `assumed`: nothing in the table shows from what the addresses count, so a person must check one of them. `words` are
+    those of `base` by which the next version of the table is read alike; empty where the texts say it themselves.
     """
 
     notation: str
     evidence: str
     cells: tuple[Address | Unclear | None, ...]
     assumed: bool = False
+    words: str = ""
 
 
 Read = Printed | Unclear | None
@@ -68,7 +70,15 @@ def parse_addresses(columns: Sequence[Column], *, spaces: Sequence[Space | None]
     first, *others = [_one_column(column, spaces, said) for column in columns]
     for other in others:
         first = _together(first, other)
-    return AddressColumn(first.rule.notation, first.rule.evidence, first.cells, assumed=first.rule.assumed)
+    rule = first.rule
+    words = "" if others else _words(rule)
+    return AddressColumn(rule.notation, rule.evidence, first.cells, assumed=rule.assumed, words=words)
+
+
+def _words(rule: Rule) -> str:
+    if rule.notation == "regions":
+        return ""
+    return "modicon" if rule.regions else f"{rule.base},hex" if rule.digits == 16 else str(rule.base)  # noqa: PLR2004 - hex
 
 
 @dataclass(frozen=True, slots=True)

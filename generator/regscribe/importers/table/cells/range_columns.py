@@ -86,7 +86,7 @@ def _settled(row: Ranged, rule: str) -> Settled | Unclear:
     if not as_stored and not as_value:
         return _no_fit(row)
     value = _scaled(row.limits, row.scale)
-    if row.scale == PLAIN:
+    if row.scale == PLAIN or value == row.limits:
         return Settled(row.limits)
     if as_stored and as_value and not rule:
         return Unclear(

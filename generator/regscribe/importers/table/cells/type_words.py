@@ -78,7 +78,7 @@ NUMBERED = re.compile(
 """A sign and a number of bits, in either order."""
 
 KINDS = {
-    **dict.fromkeys(("bitmap", "bitfield", "bitmask", "bits", "flags", "bitstring", "bitarray"), "flags"),
+    **dict.fromkeys(("bitmap", "bitfield", "bitfeld", "bitmask", "bits", "flags", "bitstring", "bitarray"), "flags"),
     **dict.fromkeys(("enum", "enumeration", "enumerated", "list", "selection", "choice"), "enum"),
     **dict.fromkeys(("bcd", "packedbcd", "bcddigits"), "bcd"),
 }
