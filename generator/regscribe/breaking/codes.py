@@ -68,11 +68,9 @@ def enum_differences(
     """What differs between the codes of two versions; where one has none, another kind of value tells it already."""
     if old is None or new is None:
         if old is not new and same_kind:
-            effects = Effects(N, H) if old is None else Effects(H, B)
-            words = ("none", "codes") if old is None else ("codes", "none")
-            yield Coded(
-                Difference(CODE_ADDED if old is None else CODE_REMOVED, "meaning of the number", effects, *words)
-            )
+            came = Difference(CODE_ADDED, "meaning of the number", Effects(N, H), "none", "codes")
+            went = Difference(CODE_REMOVED, "meaning of the number", Effects(H, B), "codes", "none")
+            yield Coded(came if old is None else went)
         return
     conditions = [plain(case.when, renames) for case in old.cases]
     if conditions != [plain(case.when, renames.now) for case in new.cases]:

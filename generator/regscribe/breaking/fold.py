@@ -84,8 +84,8 @@ def _stretches(together: Sequence[Found]) -> tuple[str, str]:
         high = max(each[side] + each[2] - 1 for each in moved)
         space = text.partition(" ")[0]
         ends.append(f"{space} {span_words(low, high)}")
-    distance = next(iter(moved))[1] - next(iter(moved))[0]
-    return ends[0], f"{ends[1]} (each {distance:+d})"
+    distances = {each[1] - each[0] for each in moved}
+    return ends[0], f"{ends[1]} (each {distances.pop():+d})" if len(distances) == 1 else ends[1]
 
 
 def _advice(site: Site, difference: Difference) -> str:

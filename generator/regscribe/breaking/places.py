@@ -99,15 +99,21 @@ def _view_words(view: View, at: int) -> str:
 
 
 def _address(mine: View, theirs: View, old: Seat, new: Seat, what: str) -> Placed | None:
-    """The address of a view where it differs for the first elements of arrays: what the shape says is told there."""
-    before, after = (bare(view.space, view.address(seat.home)) for view, seat in ((mine, old), (theirs, new)))
+    """The address of a view where it differs for another reason than the shape of an array, which is told there."""
+    steps = new.register.at - new.home
+    before = bare(mine.space, mine.address(old.home + steps))
+    after = bare(theirs.space, theirs.address(new.register.at))
     if (mine.space, before) == (theirs.space, after):
-        return None
+        if mine.stride == theirs.stride or new.register.index:  # other elements move, and tell it
+            return None
+        words = f"{mine.stride} addresses a step", f"{theirs.stride} addresses a step"
+        return Difference(TEXT, f"stride{what}", TEXT_ONLY, *words), None, None
     first = bare(mine.space, mine.address(old.register.at))
-    last = bare(theirs.space, theirs.address(new.register.at))
-    words = f"{spelled(mine.space, first)}", f"{spelled(theirs.space, last)}"
-    cause = (ADDRESS.id, mine.space, theirs.space, after - before, what)
-    return Difference(ADDRESS, f"address{what}", Effects(B, N), *words), cause, (first, last, theirs.words)
+    words = f"{spelled(mine.space, first)}", f"{spelled(theirs.space, after)}"
+    formulas = [(view.offset, view.stride) for view in (mine, theirs)]
+    why = after - before if formulas[0] == formulas[1] else tuple(formulas)
+    cause = (ADDRESS.id, mine.space, theirs.space, what, why)
+    return Difference(ADDRESS, f"address{what}", Effects(B, N), *words), cause, (first, after, theirs.words)
 
 
 def bare(space: Space, address: int) -> int:

@@ -31,6 +31,31 @@ def test_a_view_may_move_alone(edited: Any) -> None:
     assert told(found) == [("RS0701", "`level`: address of view `ieee` holding 8040 -> holding 9040 (on 2 models)")]
 
 
+def test_a_view_set_with_another_stride_is_one_change_for_all_its_registers(bench: Any) -> None:
+    old = BASE.replace(
+        "      - {at: 22, name: Bank", "      - {at: 21, name: Depth, views: both}\n      - {at: 22, name: Bank"
+    )
+    (found,) = bench.compared(old, old.replace("stride: 2, type: float32", "stride: 4, type: float32")).changes
+    assert (found.before, found.after) == ("holding 8040 to 8043", "holding 8080 to 8085")
+
+
+def test_elements_of_an_array_move_where_a_view_has_another_stride(bench: Any) -> None:
+    old = BASE.replace(
+        "registers: [{at: 50, name: Target}", "registers: [{at: 0, name: Phase, views: both}, {at: 50, name: Target}"
+    )
+    old = old.replace(
+        "type: int16}\n    registers:\n      - {at: 40, name: Start",
+        "stays: operation}\n    registers:\n      - {at: 40, name: Start",
+    )
+    old = old.replace("views:\n", "views:\n  far:\n    base: {offset: 500, type: int16}\n").replace(
+        "views: both}, {at: 50", "views: far}, {at: 50"
+    )
+    (found,) = bench.compared(
+        old, old.replace("{offset: 500, type: int16}", "{offset: 500, stride: 3, type: int16}")
+    ).changes
+    assert (found.rule.id, found.before, found.after) == ("RS0701", "holding 502 to 504", "holding 506 to 512")
+
+
 def test_aliases_that_move_with_their_register_are_no_change_of_their_own(edited: Any) -> None:
     found = edited("at: 1, name: Setpoint", "at: 30, name: Setpoint", "[901]", "[930]")
     assert told(found) == [("RS0701", "`setpoint`: address holding 1 -> holding 30 (on 2 models)")]

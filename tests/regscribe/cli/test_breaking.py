@@ -167,6 +167,13 @@ def test_a_commit_is_compared_as_it_was(cli: Cli, repository: Path, oven: Path) 
     assert (gone.code, "map acme/kiln is gone" in gone.out) == (1, True)
 
 
+def test_a_hook_of_git_may_run_it(cli: Cli, repository: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    assert repository.is_dir()
+    monkeypatch.setenv("GIT_DIR", ".git")
+    monkeypatch.setenv("GIT_INDEX_FILE", ".git/index")
+    assert cli("breaking", "--against", "git:HEAD").code == 0
+
+
 def test_a_library_of_a_commit_is_that_of_the_commit(cli: Cli, oven: Path) -> None:
     library = oven.parent / "common.library.yaml"
     oven.write_text(USING, encoding="utf-8")

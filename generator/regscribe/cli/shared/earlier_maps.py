@@ -16,6 +16,9 @@ from regscribe.visible import safe
 
 GIT = "git:"
 
+OF_A_HOOK = frozenset({"GIT_DIR", "GIT_WORK_TREE", "GIT_INDEX_FILE", "GIT_PREFIX"})
+"""Variables by which git tells its hooks where they run; they would hide the repository of the maps."""
+
 
 @dataclass(frozen=True, slots=True)
 class Earlier:
@@ -106,7 +109,8 @@ def _inside(path: Path, top: Path) -> Path:
 def _git(folder: Path, *arguments: str, failing: str) -> str:
     """What a git command prints. Raises click.UsageError with `failing` where it fails."""
     try:
-        done = subprocess.run(["git", "-C", str(folder), *arguments], capture_output=True, check=False)  # noqa: S603, S607 (the user's own git, without a shell)
+        command = ["git", "-C", str(folder), *arguments]
+        done = subprocess.run(command, capture_output=True, check=False, env=_surroundings())  # noqa: S603 (the user's own git, without a shell)
     except OSError as error:
         refuse(f"git cannot be run ({error.strerror}): compare with a file or a folder")
     if done.returncode:
@@ -115,10 +119,16 @@ def _git(folder: Path, *arguments: str, failing: str) -> str:
     return os.fsdecode(done.stdout).rstrip("\n")
 
 
+def _surroundings() -> dict[str, str]:
+    """The environment of git, as it is outside of hooks."""
+    return {name: value for name, value in os.environ.items() if name not in OF_A_HOOK}
+
+
 def _extract(top: Path, commit: str, root: Path) -> None:
     """Write the YAML files of a commit below `root`; links and all that is no plain file are left out."""
     command = ["git", "-C", str(top), "archive", "--format=tar", commit]
-    with subprocess.Popen(command, stdout=subprocess.PIPE, stderr=subprocess.DEVNULL) as process:  # noqa: S603 (as above)
+    out, unheard = subprocess.PIPE, subprocess.DEVNULL
+    with subprocess.Popen(command, stdout=out, stderr=unheard, env=_surroundings()) as process:  # noqa: S603 (as above)
         assert process.stdout is not None  # noqa: S101 (it is a pipe)
         try:
             with tarfile.open(fileobj=process.stdout, mode="r|") as archive:
