@@ -141,7 +141,7 @@ def device_of(target: Target, request: Request) -> Device:
 
 def _point(register: Register, device: Device) -> Point | None:
     """Work out a register and tell its losses; None, with the reason told, where the form cannot say it."""
-    if register.reading.clears and register.path not in device.request.named:
+    if device.target.placed and register.reading.clears and register.path not in device.request.named:
         done = "left out: reading it changes it; name it by --register to have it polled"
         device.lose(register, LEFT_OUT, Grade.LOST, done)
         return None
