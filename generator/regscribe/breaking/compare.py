@@ -60,7 +60,7 @@ def compare(olds: Sequence[RegisterMap], news: Sequence[RegisterMap], *, alone: 
 def _waived(one: Found, waivers: Iterable[Waiver], used: set[Waiver]) -> bool:
     """Whether a waiver excuses a difference; what it names may lack its indexes, or be the name before."""
     names = {name for name in (one.site.subject, one.site.other) if name}
-    names |= {INDEX.sub("", name) for name in names}
+    names |= {INDEX.sub(mark, name) for name in names for mark in ("", "[]")}
     matching = [waiver for waiver in waivers if waiver.rule == one.difference.rule.id and waiver.at in names]
     used.update(matching)
     return bool(matching)

@@ -2,7 +2,7 @@
 
 from collections.abc import Hashable, Iterable, Sequence
 
-from regscribe.breaking.change import Change, Difference, Found, Site
+from regscribe.breaking.change import Change, Difference, Found
 from regscribe.breaking.plain import INDEX
 from regscribe.breaking.rules import MAP_RENAMED, MODEL_RENAMED, REMOVED, RENAMED
 from regscribe.emit.words import span_words
@@ -13,7 +13,7 @@ FOLLOWING = "unique ids, metrics and topics of exports follow the path, so histo
 
 ADVICE = {
     RENAMED: "{old} is {new} in drivers, on the command line and in backups; " + FOLLOWING,
-    REMOVED: "{old} is gone from drivers and exports; `regscribe explain RS0742` tells what counts as a rename",
+    REMOVED: "drivers and exports lose it, and histories under its name end",
     MODEL_RENAMED: "links, configurations and backups that name {old} must name {new}",
     MAP_RENAMED: "programs import another module, and name maps and models by the new id",
 }
@@ -64,7 +64,7 @@ def _change(together: Sequence[Found]) -> Change:
         registers=tuple(dict.fromkeys(path for site in sites for path in site.paths)),
         models=tuple(dict.fromkeys(site.model for site in sites if site.model)),
         was=next((site.was for site in sites if site.span == place and site.was), None),
-        advice=_advice(first.site, first.difference),
+        advice=_advice(first.difference),
     )
 
 
@@ -88,7 +88,6 @@ def _stretches(together: Sequence[Found]) -> tuple[str, str]:
     return ends[0], f"{ends[1]} (each {distances.pop():+d})" if len(distances) == 1 else ends[1]
 
 
-def _advice(site: Site, difference: Difference) -> str:
+def _advice(difference: Difference) -> str:
     told = ADVICE.get(difference.rule, "")
-    old = f"`{difference.before}`" if difference.rule is not REMOVED else f"`{site.subject}`"
-    return told.format(old=old, new=f"`{difference.after}`")
+    return told.format(old=f"`{difference.before}`", new=f"`{difference.after}`")

@@ -1,4 +1,4 @@
-"""docs/breaking.md: its maps and sessions are what it says. To write what the commands print now, run this file."""
+"""docs/breaking.md: its sessions and its table of rules are as it says. Run this file to write them anew."""
 
 import contextlib
 import io
@@ -10,15 +10,37 @@ from pathlib import Path
 
 import pytest
 
+from regscribe.breaking import RULES
+from regscribe.breaking.change import Effect, Effects
+from regscribe.breaking.examples import EDITS
+from regscribe.breaking.report import WORDS
+from regscribe.breaking.rules import MAP_ADDED, MAP_REMOVED
 from regscribe.cli.app import run
+from regscribe.model import Rule
 
 PAGE = Path(__file__).parents[3] / "docs" / "breaking.md"
+WHOLE = {
+    MAP_ADDED: Effects(Effect.COMPATIBLE, Effect.COMPATIBLE),
+    MAP_REMOVED: Effects(Effect.BREAKING, Effect.BREAKING),
+}
 BLOCK = re.compile(r"^```(\w+)([^\n]*)\n(.*?)^```$", re.DOTALL | re.MULTILINE)
 
 
+TABLE = re.compile(
+    r"(?<=^\| Rule \| Change \| On the wire \| For programs \|\n\|---\|---\|---\|---\|\n)(?:\|.*\n)*", re.MULTILINE
+)
+
+
 def played(page: str) -> str:
-    """The page with what its commands print now, in the working directory."""
-    return BLOCK.sub(_block, page)
+    """The page with what its commands print now, in the working directory, and the table of rules."""
+    rows = "".join(f"| {rule.id} | {rule.title} | {' | '.join(_effects(rule))} |\n" for rule in RULES)
+    return TABLE.sub(rows, BLOCK.sub(_block, page))
+
+
+def _effects(rule: Rule) -> tuple[str, str]:
+    """The effects of the example of a rule in words; of whole maps those that they always have."""
+    effects = EDITS[rule].effects if rule in EDITS else WHOLE[rule]
+    return tuple("\N{EN DASH}" if effect is Effect.NONE else WORDS[effect] for effect in effects)  # type: ignore[return-value]  # two of two
 
 
 def _block(found: re.Match[str]) -> str:
