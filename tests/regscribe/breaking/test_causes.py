@@ -147,3 +147,20 @@ def test_a_condition_that_changed_is_one_change(edited: Any) -> None:
 def test_a_change_on_one_model_names_that_model(edited: Any) -> None:
     (found,) = edited("name: Fan, models", "name: Fan, unit: rpm, models")
     assert (found.rule.id, found.models) == ("RS0712", ("M2",))
+
+
+def test_a_view_set_that_changed_is_one_change_in_all_groups(bench: Any) -> None:
+    old = BASE.replace(
+        "      - {at: 40, name: Start", "      - {at: 42, name: Depth, views: both}\n      - {at: 40, name: Start"
+    )
+    old = old.replace('source: "10"\n    each: {access: rw, type: int16}', 'source: "10"\n    each: {access: rw}')
+    (found,) = bench.compared(old, old.replace("type: float32}", "type: float32, preferred: true}")).changes
+    assert (found.rule.id, found.subjects) == ("RS0706", ("level", "depth"))
+
+
+def test_a_scale_rule_that_changed_is_one_change_in_all_groups(bench: Any) -> None:
+    old = BASE.replace("chains:\n", "scales: {tenths: [{decimals: 1}]}\nchains:\n")
+    old = old.replace("name: Offset, type: int16", "name: Offset, type: int16, scale: tenths")
+    old = old.replace("name: Target}", "name: Target, scale: tenths}")
+    (found,) = bench.compared(old, old.replace("[{decimals: 1}]", "[{decimals: 2}]")).changes
+    assert (found.rule.id, found.subjects) == ("RS0711", ("offset", "segments[].target"))
