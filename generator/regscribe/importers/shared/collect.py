@@ -91,8 +91,7 @@ def _apart(places: Sequence[_Place]) -> tuple[list[_Place], dict[int, tuple[Entr
     contrary: dict[int, tuple[Entry, Diagnostic]] = {}
     by_address: dict[tuple[Space, int], list[_Place]] = {}
     for place in sorted(places, key=lambda one: one.is_word):
-        space, start, end = place.first.stretch
-        addresses = [(space, at) for at in range(start, min(end, start + MOST_ADDRESSES))]
+        addresses = [(place.first.space, at) for at in place.first.addresses]
         others = {id(one): one for at in addresses for one in by_address.get(at, ())}
         wrong = next((one for one in others.values() if not _agree(place, one)), None)
         if wrong is not None:
@@ -108,16 +107,17 @@ def _apart(places: Sequence[_Place]) -> tuple[list[_Place], dict[int, tuple[Entr
     return kept, contrary
 
 
-MOST_ADDRESSES = 0x10000
-
-
 def _agree(place: _Place, other: _Place) -> bool:
     """Whether two places may have the same addresses."""
     if all("when" in one.first.more for one in (place, other)):
         return True  # two that never exist together; `check` sees whether they do
-    (_, start, end), (_, first, last) = place.first.stretch, other.first.stretch
-    within = first <= start and end <= last and other.first.count == 1
-    return place.is_word and not other.is_word and within and not other.first.type.is_octets
+    if {place.first.type, other.first.type} <= BYTES:
+        return bool(place.first.more.get("byte", "low") != other.first.more.get("byte", "low"))
+    return place.is_word and not other.is_word and _covers(other, place) and not other.first.type.is_octets
+
+
+BYTES = {WireType.UINT8, WireType.INT8}
+"""Types of one byte of a word, of which two may share it."""
 
 
 def _entry(
@@ -133,8 +133,8 @@ def _entry(
 
 
 def _covers(whole: _Place, word: _Place) -> bool:
-    (space, start, end), (other, first, last) = word.first.stretch, whole.first.stretch
-    return space is other and first <= start and end <= last
+    one, other = whole.first, word.first
+    return one.space is other.space and one.count == 1 and {*other.addresses} <= {*one.addresses}
 
 
 def _conditional(place: _Place) -> bool:
@@ -150,7 +150,8 @@ def _number(place: _Place, name: str) -> Entry:
     merged = first
     parts = [_row(first, first.remarks)]
     for one in others:
-        more = {**one.more, **merged.more}
+        clashes = MEANINGS & merged.more.keys()
+        more = {**{key: value for key, value in one.more.items() if key not in MEANINGS or not clashes}, **merged.more}
         access = "rw" if {merged.access, one.access} != {merged.access} else merged.access
         merged = replace(merged, more=more, access=access, unit=merged.unit or one.unit)
         parts.append(_row(one, (*one.remarks, _again(first, one, more))))
@@ -164,8 +165,12 @@ def _called(entry: Entry, name: str) -> Entry:
     return entry if entry.members or snake(keys["name"]) == name else replace(entry, keys={"id": name, **keys})
 
 
+MEANINGS = frozenset({"enum", "flags", "fields", "kind"})
+"""Keys of which a register has one."""
+
+
 def _again(first: Point, one: Point, more: dict[str, Any]) -> Remark:
-    contrary = [key for key, value in one.more.items() if more[key] != value]
+    contrary = [key for key, value in one.more.items() if more.get(key) != value]
     contrary += ["unit"] if one.unit and one.symbol != first.symbol else []
     lost = f"; its {', '.join(contrary)} is not taken over" if contrary else ""
     message = f"the same register as `{first.name}` ({first.place}){lost}"

@@ -70,18 +70,30 @@ class Collecting:
         """The place of a value."""
         return Span(self.file, node.line, 1, node.line, 1)
 
-    def add(self, name: str, node: Node, make: Callable[[Keys], Point | None], **more: Any) -> None:  # noqa: ANN401 - of Keys
-        """Add the point that a mapping is; where it cannot be taken, that it is left out, and why."""
-        keys = Keys(node, **more)
+    def add(
+        self,
+        name: str,
+        node: Node,
+        make: Callable[[Keys], Point | None],
+        *,
+        group: str = "",
+        outer: Mapping[str, Node] | None = None,
+    ) -> None:
+        """Add the point that a mapping is; where it cannot be taken, that it is left out, and why.
+
+        `outer` has what counts where the mapping itself says nothing.
+        """
+        keys = Keys(node, outer=outer or {})
         try:
             point = make(keys)
         except LeftOutError as why:
-            self.left_out(name, node, why)
+            self.left_out(name, node, why, group or "Registers")
             return
         if point is None:
             return
         self.counted.update(key for key in node.members or {} if key in self.shown and key not in keys.taken)
-        self.items.append(replace(point, remarks=(*point.remarks, *keys.remarks, *keys.rest(self.shown))))
+        remarks = (*point.remarks, *keys.remarks, *keys.rest(self.shown))
+        self.items.append(replace(point, remarks=remarks, group=group or point.group))
 
     def left_out(self, name: str, node: Node, why: LeftOutError, group: str = "Registers") -> None:
         """Add a row that is left out."""

@@ -13,6 +13,7 @@ from regscribe.model import Order, Space, Span, WireType
 from regscribe.model.units import meant_unit
 
 MOST_NAME = 120
+MOST_ADDRESSES = 0x10000
 ONE_WORD = 1
 
 
@@ -51,6 +52,15 @@ class Point:
     def stretch(self) -> tuple[Space, int, int]:
         """The space, the first address, and the one behind the last."""
         return self.space, self.at, self.at + self.length * self.count
+
+    @property
+    def addresses(self) -> tuple[int, ...]:
+        """Every address that it takes; those of words apart stand in `more`."""
+        apart = self.more.get("at")
+        if isinstance(apart, list):
+            return tuple(sorted(apart))
+        _, first, end = self.stretch
+        return tuple(range(first, min(end, first + MOST_ADDRESSES)))
 
     @property
     def symbol(self) -> str:

@@ -39,6 +39,8 @@ class _Walker:
 
     def _put(self, value: Any, builder: Builder) -> None:  # noqa: ANN401 - plain values
         if isinstance(value, dict):
+            for key, inner in list(value.items())[:1]:
+                self._find(key, inner)  # a table begins where its first key stands
             builder.start(self.line, mapping=True)
             for key, inner in value.items():
                 self._find(key, inner)
