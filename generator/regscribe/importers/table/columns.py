@@ -80,8 +80,8 @@ def _column(grid: Grid, header: Header, index: int, roles: Mapping[int, tuple[st
 
 
 def texts_below(grid: Grid, header: Header) -> list[list[str]]:
-    """The cells of each column below the header, without those that a merged cell repeats."""
-    below = grid.rows[header.last + 1 :]
+    """The cells of each column below the header, without those that a merged cell repeats, and without titles."""
+    below = [row for row in grid.rows[header.last + 1 :] if len(header.headings) == 1 or len(set(row.cells) - {""}) > 1]
     return [[row.cell(at) for row in below if at not in row.repeated] for at in range(len(header.headings))]
 
 

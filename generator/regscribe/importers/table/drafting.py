@@ -166,6 +166,9 @@ def _stated(page: Page, layout: Layout, whole: Whole, made: Sequence[Made], choi
             f"{where}nothing states the order of the words of {rows}: the highest first (ABCD) is assumed; check one, "
             "--word-order little is the other"
         )
+    doubtful = sum(remark.code == "range-unclear" for one in made for remark in one.entry.remarks)
+    if doubtful and not choices.ranges:
+        yield f"{where}{doubtful} of the ranges are unclear; what they count, --ranges stored or --ranges value says"
     if "access" not in whole.headings and choices.access is None:
         yield f"{where}no column says whether registers can be written: all are read only here (--access)"
     if layout.headers:

@@ -4,6 +4,7 @@ from collections.abc import Iterable, Sequence
 from dataclasses import dataclass, replace
 
 from regscribe.model import Diagnostic, Severity, Span
+from regscribe.visible import INVISIBLE
 
 RULE = "table"
 """Begins the ids of what is found in a table."""
@@ -78,17 +79,28 @@ class Grid:
 
 
 def grid_of(name: str, rows: Iterable[Row], stated: Sequence[str] = (), findings: Sequence[Diagnostic] = ()) -> Grid:
-    """Collect the rows that have content, without blanks around cells. Raises TableError for what is beyond bounds."""
+    """Collect the rows that have content, without blanks around cells and without characters that nobody sees.
+
+    Raises TableError for what is beyond bounds.
+    """
     kept: list[Row] = []
+    cleaned = 0
     for row in rows:
-        cells = tuple(map(str.strip, row.cells))
+        cells = tuple(map(_visible, row.cells))
+        cleaned += sum(len(cell) < len(raw.strip()) for cell, raw in zip(cells, row.cells, strict=True))
         while cells and not cells[-1]:
             cells = cells[:-1]
         if not cells:
             continue
         _check(row, cells, len(kept), name)
         kept.append(replace(row, cells=cells))
-    return Grid(name, tuple(kept), tuple(stated), tuple(findings))
+    said = [f"characters that nobody sees are taken out of {cleaned} cells"] if cleaned else []
+    return Grid(name, tuple(kept), (*stated, *said), tuple(findings))
+
+
+def _visible(text: str) -> str:
+    """A text without blanks around it and without invisible characters; lines and tabs stay."""
+    return INVISIBLE.sub(lambda found: found[0] if found[0] in "\n\t" else "", text).strip()
 
 
 def _check(row: Row, cells: Sequence[str], before: int, name: str) -> None:

@@ -15,7 +15,6 @@ from regscribe.model import WireType
 from regscribe_runtime.values.octets import KINDS
 from regscribe_runtime.values.wire_types import Order
 
-UNCLEAR_TYPE = "type-unclear"
 MOMENTS = frozenset({WireType.DATETIME, WireType.DATE, WireType.TIME})
 ONE_OF_WORDS = frozenset({WireType.UINT8, WireType.INT8})
 
@@ -134,9 +133,8 @@ def _scale(making: Making, whole: Whole, index: int) -> Scale | Unclear:
     unit = parse_unit(making.item["unit"])
     if isinstance(unit, UnitCell) and unit.factor is not None:
         said.append(Scale(unit.factor))
-        if unit.signed and str(making.wire).startswith("uint"):
-            message = f"unit `{making.item['unit'][:30]}` marks a number with a sign, and its type has none"
-            raise LeftOutError(UNCLEAR_TYPE, message)
+    elif isinstance(unit, Unclear) and any(map(str.isdigit, making.item["unit"])):
+        return unit  # it may be a factor
     if len({(one.multiply, one.add) for one in said}) > 1:
         texts = ", ".join(f"`{making.item[role][:30]}`" for role in ("scale", "decimals", "unit") if making.item[role])
         return Unclear(f"{texts} say different scales")

@@ -26,10 +26,12 @@ def grids_of(data: bytes, name: str, choices: Choices) -> tuple[list[Grid], Sequ
         from regscribe.importers.table.workbooks import read as read_workbook  # noqa: PLC0415 - openpyxl takes 200 ms
 
         grids, stated = read_workbook(data, name, choices.sheets)
+        stated = [*stated, *(text for grid in grids for text in grid.stated)]
     elif is_pdf(data):
         from regscribe.importers.table.pdf_tables import read as read_pdf  # noqa: PLC0415 - an extra
 
         grids, stated = read_pdf(data, name, choices.pages, choices.area)
+        stated = [*stated, *(text for grid in grids for text in grid.stated)]
     else:
         grids = [read_text(data, name, encoding=choices.encoding, delimiter=choices.delimiter)]
         stated = grids[0].stated

@@ -104,7 +104,7 @@ def _grid(reader: "ExcelReader", archive: zipfile.ZipFile, sheet: Sheet, name: s
         said = structure(part, sheet.name)
     rows = _Filled(said.merged).rows(_rows(reader, sheet, frozenset(said.unvalued)))
     grid = grid_of(name, rows)
-    return Grid(name, grid.rows, (), findings_of(grid, said, sheet.name))
+    return Grid(name, grid.rows, grid.stated, findings_of(grid, said, sheet.name))
 
 
 def _rows(reader: "ExcelReader", sheet: Sheet, unvalued: frozenset[str]) -> Iterator[Row]:
