@@ -362,6 +362,7 @@ TOLD = {
     "several-sentinels": "one of several fault words",
     "sentinel-label": "what a fault word means",
     "truth-of-words": "words that are neither 0 nor 1",
+    "type-unread": "a type that the form has, and the usual program for it does not read",
     "serial-line": "speed and character format of the serial line",
 }
 """What exporters tell by themselves, by code: what a form makes of a fact, which no fact alone decides."""

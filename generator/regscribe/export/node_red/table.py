@@ -8,8 +8,9 @@ from fractions import Fraction
 from typing import Any
 
 from regscribe.emit.words import labels_of
-from regscribe.export.device import Point, Wire
-from regscribe.model import BitField, Kind, Order, Sentinel, View, WireType
+from regscribe.export.device import Point
+from regscribe.export.device.places import places_of
+from regscribe.model import BitField, Kind, Sentinel, WireType
 from regscribe.reference.limits import Limits
 from regscribe_runtime.values.octets import TextForm
 
@@ -28,25 +29,13 @@ DECIMAL = {
 ADDRESS_BYTES = {WireType.IPV4: 4, WireType.IPV6: 16, WireType.EUI48: 6, WireType.EUI64: 8}
 
 
-def places_of(wire: Wire, view: View) -> list[int]:
-    """Return where in the bytes that a view takes on the wire those of its value stand, the most significant first."""
-    count = view.words
-    words = wire.words
-    if isinstance(words, Order):
-        steps = list(range(count)) if words is Order.BIG else list(range(count - 1, -1, -1))
-    else:
-        steps = [place - 1 for place in words]
-    pairs = ((2 * step, 2 * step + 1) if wire.bytes is Order.BIG else (2 * step + 1, 2 * step) for step in steps)
-    return [place for pair in pairs for place in pair]
-
-
 def entry_of(point: Point, first: int) -> Entry:
     """Return how to read a register from an answer that begins at the address `first`."""
     at = point.address - first
     if point.wire.space.is_bits:
         where: Entry = {"bit": at}
     else:
-        every = [2 * at + place for place in places_of(point.wire, point.view)]
+        every = [2 * at + place for place in places_of(point)]
         used = _used(point, every)
         where = {"bytes": used} | ({"raw": every} if point.wire.type.is_octets and used != every else {})
     return {"path": point.path, **where, **_meaning(point)} | ({"unit": point.unit} if point.unit else {})

@@ -3,7 +3,8 @@
 from fractions import Fraction
 
 from regscribe.export.device import Device, Point
-from regscribe.export.node_red.table import Entry, entry_of, intervals, places_of
+from regscribe.export.device.places import places_of, write_functions
+from regscribe.export.node_red.table import Entry, entry_of, intervals
 from regscribe.losses import Grade
 from regscribe.model import Kind
 from regscribe.reference import UnknownValueError, choose, decimal_factor, present_view
@@ -36,21 +37,21 @@ def _why_not(device: Device, point: Point) -> str:
         "its words do not stand side by side": point.wire.apart,
         "its writes must be aligned": view.align > 1,
         f"a request may write {most} of its {point.words} words": most < point.words,
-        "the device has no function that writes it": not _functions(device, point),
+        "the device has no function that writes it": not write_functions(device.register_map.protocol, point),
     }
     return next((why for why, holds in reasons.items() if holds), "")
 
 
 def _entry(device: Device, point: Point, address: int) -> Entry:
     said = {key: value for key, value in entry_of(point, point.address).items() if key not in {"bit", "raw", "unit"}}
-    said |= {"fc": _functions(device, point)[0], "address": address, "quantity": point.words}
+    said |= {"fc": write_functions(device.register_map.protocol, point)[0], "address": address, "quantity": point.words}
     if point.wire.space.is_bits:
         return said | {"coil": True, "add": "0", "multiply": "1"}
     return said | _number(device, point)
 
 
 def _number(device: Device, point: Point) -> Entry:
-    every, wire_type = places_of(point.wire, point.view), point.wire.type
+    every, wire_type = places_of(point), point.wire.type
     used = wire_type.bits // 8 if wire_type.spelling and wire_type.bits else len(every)
     said: Entry = {"bytes": every, "read": list(range(len(every) - used, len(every)))}
     if point.ranges:
@@ -76,10 +77,3 @@ def _step(device: Device, point: Point) -> Fraction | None:
     except UnknownValueError:
         return Fraction(0)
     return Fraction(0) if factor is None or view is None else Fraction(conversion.step) / factor * Fraction(view.factor)
-
-
-def _functions(device: Device, point: Point) -> list[int]:
-    """The functions that write it, that of one word or coil first where the device has it."""
-    known, view = device.register_map.protocol.functions, point.register.write_view
-    usable = [one for one in view.space.write_functions if view.allows(one) and one in known]
-    return [one for one in usable if point.words == 1 or one == view.space.write_functions[-1]]
