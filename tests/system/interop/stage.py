@@ -126,11 +126,14 @@ def staged() -> Iterator[Stage]:
     """Serve the device, holding what held.yaml says, while the block runs."""
     held = told()
     with simulate(MAP, unit=UNIT) as running:
-        for path, one in held.items():
-            running.poke(
-                path, one.fault or one.special or (int(one.value) if isinstance(one.value, bool) else one.value)
-            )
+        fill(running, held)
         yield Stage(running, held, readings(running))
+
+
+def fill(running: Running, held: Mapping[str, Held]) -> None:
+    """Let a device hold what is said by hand."""
+    for path, one in held.items():
+        running.poke(path, one.fault or one.special or (int(one.value) if isinstance(one.value, bool) else one.value))
 
 
 def readings(running: Running) -> dict[str, Any]:

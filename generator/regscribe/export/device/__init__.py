@@ -16,6 +16,7 @@ from regscribe.plugins import OptionError
 from regscribe.visible import safe
 
 __all__ = [
+    "LEFT_OUT",
     "RESOLVED",
     "Carries",
     "Carry",

@@ -361,6 +361,7 @@ TOLD = {
     "decimals-cut": "decimals of a number that may have any",
     "several-sentinels": "one of several fault words",
     "sentinel-label": "what a fault word means",
+    "write-echo": "whether a write was refused",
     "truth-of-words": "words that are neither 0 nor 1",
     "type-unread": "a type that the form has, and the usual program for it does not read",
     "serial-line": "speed and character format of the serial line",

@@ -23,9 +23,9 @@ summary = "a configuration of Home Assistant's modbus integration"
 options = DEVICE_OPTIONS
 
 carries: Carries = RESOLVED | {
-    **dict.fromkeys(("scale", "offset", "unit", "name", "array"), Carry.WHOLE),
+    **dict.fromkeys(("scale", "offset", "unit", "string", "name", "array"), Carry.WHOLE),
     **dict.fromkeys(("limits", "pause"), Carry.WHOLE),
-    **dict.fromkeys(("boolean", "string", "sentinel", "write", "settle", "poll"), Carry.PARTLY),
+    **dict.fromkeys(("boolean", "sentinel", "write", "settle", "poll"), Carry.PARTLY),
 }
 
 USUAL_TIMEOUT = 3

@@ -6,6 +6,7 @@ from math import ceil
 from regscribe.dialects.home_assistant import SPACES
 from regscribe.emit.words import one_line, span_words
 from regscribe.export.device import Device, Point
+from regscribe.export.device.writes import obstacle, writes_several
 from regscribe.losses import Grade
 from regscribe.model import Order, Space, WireType, show
 
@@ -47,7 +48,7 @@ def lose_faults(device: Device, point: Point, code: str, why: str, taken: int | 
 def binary_sensor(device: Device, point: Point) -> Entity:
     """A truth value that is read."""
     if point.register.access.writable:
-        device.lose(point.register, "write", Grade.LOST, f"read only: {_why_no_switch(device, point)}")
+        device.lose(point.register, "write", Grade.LOST, f"read only: {obstacle(point, device.register_map.protocol)}")
     lose_faults(device, point, "sentinel", "only the lowest bit counts")
     if point.wire.space.is_words:
         done = "Home Assistant looks at the lowest bit alone: a word that is neither 0 nor 1 reads as on or off"
@@ -63,37 +64,17 @@ def is_truth(point: Point) -> bool:
 
 def switches(device: Device, point: Point) -> bool:
     """Whether a register is a switch: a truth value that is written where it is read, with nothing before or after."""
-    return is_truth(point) and point.write is not None and not _why_no_switch(device, point)
-
-
-def _why_no_switch(device: Device, point: Point) -> str:
-    register = point.register
-    if point.write is None:
-        return "it is written in another form than it is read in"
-    if register.unlock or register.apply:
-        return "a write needs commands around it"
-    if register.danger:
-        return "a write is dangerous"
-    if register.writable:
-        return "a write is accepted under a condition"
-    return "" if _function(device, point) is not None else "no function that a switch sends writes it"
-
-
-def _function(device: Device, point: Point) -> bool | None:
-    """Whether the function for several registers or bits writes it, else that for one; None: neither does."""
-    known, to = device.register_map.protocol.functions, point.register.write_view
-    allowed = [one for one in to.space.write_functions if one in known and to.allows(one)]
-    return allowed[0] != to.space.write_functions[0] if allowed else None
+    return is_truth(point) and point.register.access.writable and not obstacle(point, device.register_map.protocol)
 
 
 def switch(device: Device, point: Point) -> Entity:
     """A truth value that is written, and read back."""
-    several = _function(device, point)
+    several = writes_several(point, device.register_map.protocol)
     lose_faults(device, point, "sentinel", "a switch keeps its state then")
     verify: Entity = {"input_type": SPACES[point.wire.space]}
     if point.write != point.address:
         verify["address"] = point.address
     if settle := ceil(point.register.settle / 1000):
         verify["delay"] = settle
-    write_type = WRITES[point.wire.space, bool(several)]
+    write_type = WRITES[point.wire.space, several]
     return placed(device, point) | {"address": point.write, "write_type": write_type, "verify": verify}

@@ -37,14 +37,8 @@ def sensor(device: Device, point: Point) -> Entity:
             point.register, "boolean", Grade.LOST, "shown as the number 0 or 1: only the lowest bit of a word can be on"
         )
     if point.wire.type is WireType.STRING:
-        return place | _text(device, point)
+        return place | {"data_type": TYPES[WireType.STRING], "count": point.words} | _swap(point)
     return place | _type(point) | _scale(device, point) | _nan(device, point) | _unit(point)
-
-
-def _text(device: Device, point: Point) -> Entity:
-    done = "bytes that fill a text up (NUL, blanks) are shown with it, and what no UTF-8 is makes no text"
-    device.lose(point.register, "string", Grade.COSMETIC, done)
-    return {"data_type": TYPES[WireType.STRING], "count": point.words} | _swap(point)
 
 
 def _type(point: Point) -> Entity:
