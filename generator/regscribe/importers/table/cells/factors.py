@@ -34,8 +34,14 @@ class Scale:
 
     @property
     def keys(self) -> Mapping[str, Any]:
-        """The keys of a register that say it: `decimals` for powers of ten, else `multiply` or `divide`; and `add`."""
-        return {**_factor_keys(self.multiply), **({"add": plain_number(self.add)} if self.add else {})}
+        """The keys of a register that say it: `decimals` for powers of ten, else `multiply` or `divide`; and `add`.
+
+        What `add` adds would be divided by `decimals` as well, so beside it a power of ten is multiplied by.
+        """
+        if not self.add:
+            return _factor_keys(self.multiply)
+        factor = {} if self.multiply == 1 else {"multiply": plain_number(self.multiply)}
+        return {**factor, "add": plain_number(self.add)}
 
     def of(self, stored: Fraction) -> Fraction:
         """The value of a stored number."""

@@ -103,7 +103,8 @@ def test_the_name_of_a_register_as_scale_is_unclear_and_named() -> None:
         (Scale(Fraction(-1, 3)), {"divide": -3}),
         (Scale(Fraction(2, 3)), {"multiply": "2/3"}),
         (Scale(Fraction(-1, 10)), {"multiply": -0.1}),
-        (Scale(Fraction(1, 10), Fraction(-40)), {"decimals": 1, "add": -40}),
+        (Scale(Fraction(1, 10), Fraction(-40)), {"multiply": 0.1, "add": -40}),
+        (Scale(Fraction(1, 3), Fraction(-40)), {"multiply": "1/3", "add": -40}),
         (Scale(add=Fraction(1, 10)), {"add": 0.1}),
     ],
 )
