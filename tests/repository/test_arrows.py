@@ -84,7 +84,7 @@ LIBRARIES = {
     "rich": {"cli"},
     "plotille": {"cli"},
     "pymodbus": {f"{WIRE}.framing", f"{RUNTIME}.link.clients"},
-    "openpyxl": {"importers"},
+    "openpyxl": {"importers", "export"},
     "pdfplumber": {"importers"},
     "defusedxml": {"importers"},
     "serial": {f"{RUNTIME}.link.streams", "regscribe.simulate.line.serial_ports"},

@@ -40,31 +40,31 @@ class Report:
 
 
 def write(
-    files: Mapping[str, str],
+    files: Mapping[str, str | bytes],
     out: Path,
     *,
     check: bool = False,
     kept: Iterable[str] = (),
     owned: Callable[[str], bool] = lambda _: False,
 ) -> Report:
-    """Bring `out` up to date with `files` (text by relative path).
+    """Bring `out` up to date with `files` (texts, or bytes, by relative path).
 
     `kept` are paths known to be up to date. Files of a map whose id `owned` accepts are stale, and removed, if they are
     neither in `files` nor in `kept`. With `check` nothing is touched. Raises WriteError, before anything is written
     (unless it is a stale file that cannot be removed).
     """
     kept = tuple(kept)
-    files = with_package_files(files, kept)
-    targets = {path: _target(path, out) for path in sorted({*files, *kept})}
-    changed = {path: text for path, text in files.items() if _read(targets[path]) != text.encode()}
+    contents = {path: _bytes(content) for path, content in {**_package_files(files, kept), **files}.items()}
+    targets = {path: _target(path, out) for path in sorted({*contents, *kept})}
+    changed = {path: content for path, content in contents.items() if _read(targets[path]) != content}
     tops = {path.rpartition("/")[0].partition("/")[0] for path in targets}
     stale = stale_files(targets, sorted(tops, key=lambda top: (not top, top)), out, owned)  # "" last
     diffs: list[str] = []
     if check:
-        diffs += [_unified(path, _read(targets[path]), text.encode()) for path, text in sorted(changed.items())]
+        diffs += [_unified(path, _read(targets[path]), content) for path, content in sorted(changed.items())]
         diffs += [_unified(path, _read(out / path), None) for path in stale]
     else:
-        _replace({targets[path]: text for path, text in changed.items()})
+        _replace({targets[path]: content for path, content in changed.items()})
         for path in stale:
             _remove(path, out)
     unchanged = sorted(targets.keys() - changed.keys())
@@ -73,11 +73,18 @@ def write(
 
 def with_package_files(files: Mapping[str, str], kept: Iterable[str] = ()) -> dict[str, str]:
     """Return `files` with the files that make an import package of each folder with a driver."""
+    return {**_package_files(files, kept), **files}
+
+
+def _package_files(files: Iterable[str], kept: Iterable[str]) -> dict[str, str]:
     drivers = [path for path in (*files, *kept) if path.startswith(f"{PACKAGE}/") and path.endswith(".py")]
     folders = {parent for path in drivers for parent in PurePosixPath(path).parents if parent.name}
     package_files = {f"{folder}/__init__.py": PACKAGE_FILE for folder in folders}
-    marker = {f"{PACKAGE}/py.typed": ""} if drivers else {}
-    return {**marker, **package_files, **files}
+    return {f"{PACKAGE}/py.typed": "", **package_files} if drivers else {}
+
+
+def _bytes(content: str | bytes) -> bytes:
+    return content.encode() if isinstance(content, str) else content
 
 
 def _target(path: str, out: Path) -> Path:
@@ -121,14 +128,14 @@ def _ended(line: str) -> str:
     return line if line.endswith("\n") else f"{line}\n\\ No newline at end of file\n"
 
 
-def _replace(texts: Mapping[Path, str]) -> None:
-    """Write every text beside its target, then move all of them into place: a failure leaves the tree as it was."""
-    beside = {target: target.with_name(f".{target.name}.{os.getpid()}.tmp") for target in texts}
+def _replace(contents: Mapping[Path, bytes]) -> None:
+    """Write every content beside its target, then move all of them into place: a failure leaves the tree as it was."""
+    beside = {target: target.with_name(f".{target.name}.{os.getpid()}.tmp") for target in contents}
     target = Path()
     try:
-        for target, text in texts.items():
+        for target, content in contents.items():
             target.parent.mkdir(parents=True, exist_ok=True)
-            beside[target].write_bytes(text.encode())
+            beside[target].write_bytes(content)
         for target, temporary in beside.items():
             temporary.replace(target)
     except OSError as error:

@@ -21,6 +21,7 @@ from regscribe.emit.words import (
     plain_interval,
     term_words,
 )
+from regscribe.export.device.facts import DEVICE_FACTS, FACTS, Carries, Carry
 from regscribe.export.further import beginning, further, valid_words
 from regscribe.model import (
     IDENTITY,
@@ -45,6 +46,7 @@ from regscribe.visible import cell
 name = "csv"
 summary = "every value of every model, arrays expanded, as a table"
 options: tuple[Option, ...] = ()
+carries: Carries = dict.fromkeys((fact.id for fact in (*FACTS, *DEVICE_FACTS)), Carry.WHOLE)
 
 
 class Row(NamedTuple):

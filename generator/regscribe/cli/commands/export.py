@@ -95,7 +95,7 @@ def _put(form: str, made: Exported, out: Path | None) -> None:
 
 def _write_folder(form: str, files: Mapping[str, str | bytes], out: Path) -> None:
     try:
-        write({path: text for path, text in files.items() if isinstance(text, str)}, out)
+        write(files, out)
     except WriteError as error:
         message = f"the exporter {form}: {error}"
         raise PluginError(message) from None

@@ -92,9 +92,9 @@ def request_of(maps: Sequence[RegisterMap], options: Mapping[str, str], form: st
         message = f"--format {form} is for one device: name one MAP, its --model{where}"
         raise OptionError(message)
     (register_map,) = maps
-    model, layout = _located(register_map, _model(register_map, wanted), _each(options["base"]), form)
+    model, layout = _located(register_map, model_of(register_map, wanted), _each(options["base"]), form)
     known = _surroundings(register_map, model, _each(options["with"]), _each(options["given"]))
-    registers, named = _chosen(model, _each(options.get("group", "")), _each(options.get("register", "")))
+    registers, named = chosen(model, _each(options.get("group", "")), _each(options.get("register", "")))
     usual = register_map.default_unit or max(1, register_map.protocol.unit_ids[0])
     unit = _whole("unit", options.get("unit", "") or str(usual), LAST_UNIT)
     called = options.get("name", "") or f"{model.class_name}-{unit}"
@@ -119,7 +119,8 @@ def _each(texts: str) -> list[str]:
     return texts.split("\n") if texts else []
 
 
-def _model(register_map: RegisterMap, wanted: str) -> Model:
+def model_of(register_map: RegisterMap, wanted: str) -> Model:
+    """Return the model of the name, or of the model id. Raises OptionError."""
     if register_map.has(wanted):
         return register_map.model(wanted)
     known = [one.name for one in register_map.models]
@@ -129,10 +130,11 @@ def _model(register_map: RegisterMap, wanted: str) -> Model:
     raise OptionError(message)
 
 
-def _chosen(
-    model: Model, groups: Sequence[str], patterns: Sequence[str]
-) -> tuple[tuple[Register, ...], frozenset[str]]:
-    """Return the registers of the groups and of the patterns, all without any, and the paths that patterns name."""
+def chosen(model: Model, groups: Sequence[str], patterns: Sequence[str]) -> tuple[tuple[Register, ...], frozenset[str]]:
+    """Return the registers of the groups and of the patterns, all without any, and the paths that patterns name.
+
+    Raises OptionError for a group or pattern of none.
+    """
     known = {group.id: frozenset(group.members) for group in model.groups}
     if unknown := [name for name in groups if name not in known]:
         message = f"--group {unknown[0]}: {model.name} has the groups {', '.join(known) or '(none)'}"
