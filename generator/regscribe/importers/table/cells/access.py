@@ -26,13 +26,14 @@ _WRITE = (
     r"w|wo|w o|wd|wr|write|writing|writable|write only|set|schreiben|nur schreiben|schreibbar|schreibend"
     r"|\u00e9criture|ecriture|scrittura|escritura|schrijven|skriv|skrivning|zapis|escrita|\u53ea\u5199|\u5199"
 )
-_BOTH = r"rw|wr|rwd|rwc|r w|l s|l e|ls|le|read write|lesen schreiben|\u8bfb\u5199|read and write|read or write"
+_BOTH = r"rw|wr|rwd|r w|l s|l e|ls|le|read write|lesen schreiben|\u8bfb\u5199|read and write|read or write"
 _YES = frozenset({"yes", "y", "ja", "oui", "si", "sí", "sì", "true", "1", "x", "tak", "✓", "✔", "是"})
 _NO = frozenset({"no", "n", "nein", "non", "false", "0", "nie", "nee", "nej", "\u5426"})
 
 _ONE_READS = re.compile(rf"(?:{_READ})")
 _ONE_WRITES = re.compile(rf"(?:{_WRITE})")
 _ONE_BOTH = re.compile(rf"(?:{_BOTH})")
+_BY_COMMAND = re.compile(r"r\s*/?\s*wc|wc")
 _JOINED = re.compile(r" (?:and|or|und|et|e|y|en|och|i) ")
 _WRITABLE = re.compile(r"writ|schreib|\u00e9crit|ecrit|scriv|scritt|escri|schrijf|skriv|zapis", re.IGNORECASE)
 _READ_ONLY = re.compile(r"read.?only|nur.?lese|lecture seule|sola lettura|solo lectura", re.IGNORECASE)
@@ -68,9 +69,13 @@ def _answer(plain: str, header: str, text: str) -> AccessCell | Unclear:
 
 def _words(plain: str, text: str) -> AccessCell | Unclear:
     """Words for reading and for writing, with a remark behind them in brackets."""
+    if _BY_COMMAND.fullmatch(plain):
+        return Unclear(f"{quoted(text)} may say that it is written by a command of the device, and not itself")
     bare, _, remark = plain.partition("(")
+    marks = bare[len(bare.rstrip("*\u2020\u2021\u00b9\u00b2\u00b3 ")) :].strip()
+    bare = bare.rstrip("*\u2020\u2021\u00b9\u00b2\u00b3 ")
     folded = " ".join(re.split(r"[\s/,;+&.|_-]+", bare)).strip()
-    said = remark.removesuffix(")").strip()
+    said = f"{remark.removesuffix(')').strip()} {marks}".strip()
     if found := _access_of(folded):
         with_write = found is Access.READ and _ONE_WRITES.fullmatch(said.partition(" ")[0])
         return AccessCell(Access.READ_WRITE if with_write else found, said)

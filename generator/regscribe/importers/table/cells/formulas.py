@@ -5,13 +5,15 @@ import re
 from fractions import Fraction
 from typing import NamedTuple
 
-from regscribe.importers.table.cells import Unclear
+from regscribe.importers.table.cells import Unclear, quoted
 from regscribe.importers.table.cells.numbers import NUMBER, clean, number
 
 MOST_LENGTH = 80
 """Characters of a formula; a longer text is prose."""
 
 _NAMES = "x|X|n|N|y|raw|Raw|RAW|val|value|Value|VALUE|reg|register|Register|data|DATA|stored|Wert|valeur|valor"
+_SURE = re.compile(r"\b(?:raw|reg|register|data|stored)\b", re.IGNORECASE)
+"""Names that stand for what the device sends; `value*10` may be what it sends for the value."""
 _STORED = re.compile(rf"(?<![A-Za-z_])(?:{_NAMES})(?![A-Za-z_])")
 _RESULT = re.compile(r"\s*(?:y|Y|value|Value|v|V|result|phys\w*|real\w*)\s*=(?!=)\s*")
 _SIGNS = str.maketrans({"\u00d7": "*", "\u00b7": "*", "\u00f7": "/", "[": "(", "]": ")", "{": "(", "}": ")"})
@@ -53,8 +55,19 @@ def equation(text: str, *, comma: bool | None = None) -> Line | Unclear | None:
     return Line(value / stored, unit=(parts["unit"] or "").strip())
 
 
-def formula(text: str, *, comma: bool | None = None) -> Line | None:
-    """Read a formula of the stored number; None if the text is none, or not a straight line."""
+def formula(text: str, *, comma: bool | None = None) -> Line | Unclear | None:
+    """Read a formula of the stored number; None if the text is none, or not a straight line.
+
+    Unclear: `value*10`, which may as well say that the device sends ten times the value.
+    """
+    found = _formula(text, comma=comma)
+    is_sure = _SURE.search(text) or _RESULT.match(clean(text))
+    if found and abs(found.slope) > 1 and not is_sure:
+        return Unclear(f"{quoted(text)} may be the value, or what the device sends for it")
+    return found
+
+
+def _formula(text: str, *, comma: bool | None) -> Line | None:
     plain = _RESULT.sub("", clean(text), count=1).translate(_SIGNS)
     if len(plain) > MOST_LENGTH or not _STORED.search(plain):
         return None

@@ -126,7 +126,7 @@ def _last(found: re.Match[str], digits: str, form: str, text: str) -> str | Uncl
     if last_form != form and {last_form, form} != {"decimal", "letters"}:
         return Unclear(f"{quoted(text)} is a range from one notation to another")
     base = 10 if form == last_form == "decimal" else 16
-    if int(last, base) < int(digits, base) and len(last) < len(digits) and len(digits) > 2:  # noqa: PLR2004 - 10-5 is none
+    if int(last, base) < int(digits, base) and 1 < len(last) < len(digits):
         last = digits[: -len(last)] + last  # 40001-12 ends at 40012
     return last if int(last, base) >= int(digits, base) else Unclear(f"the range {quoted(text)} ends before it begins")
 

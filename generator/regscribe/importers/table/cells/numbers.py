@@ -14,6 +14,9 @@ MOST_DIGITS = 40
 
 MOST_EXPONENT = 30
 
+MOST_TEXT = 400
+"""Characters of a cell that is not codes; patterns never see more."""
+
 MINUS_SIGNS = str.maketrans({"\u2212": "-", "\u2013": "-", "\u2010": "-", "\u2011": "-", "\ufe63": "-", "\uff0d": "-"})
 _BLANKS = "\u00a0\u2007\u2008\u2009\u202f"
 _SOFT = re.compile("[\u00ad\u200b\u2060\ufeff]")
@@ -30,9 +33,13 @@ _GROUPED = re.compile(r"[1-9][0-9]{0,2}(?P<mark>[.,'\u2019 ])[0-9]{3}(?:(?P=mark
 
 
 def clean(text: str) -> str:
-    """A cell without invisible characters, with plain blanks and minus signs, one blank between words."""
-    plain = _SOFT.sub("", text[: 1 << 16]).translate(MINUS_SIGNS).translate(dict.fromkeys(map(ord, _BLANKS), " "))
-    return " ".join(plain.split())
+    """A cell without invisible characters, with plain blanks and minus signs, one blank between words.
+
+    What is longer than a cell of any kind but codes is cut, and ends in a mark by which nothing takes it for whole.
+    """
+    plain = _SOFT.sub("", text[: 8 * MOST_TEXT]).translate(MINUS_SIGNS).translate(dict.fromkeys(map(ord, _BLANKS), " "))
+    plain = " ".join(plain.split())
+    return plain if len(plain) <= MOST_TEXT and len(text) <= 8 * MOST_TEXT else f"{plain[:MOST_TEXT]}\u2026\u2026"
 
 
 def number(text: str, *, comma: bool | None = None) -> Fraction | Unclear:

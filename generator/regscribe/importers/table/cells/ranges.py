@@ -78,6 +78,8 @@ def _listed(plain: str, text: str, *, comma: bool | None) -> Limits | Unclear:
     if re.fullmatch(r"[+-]?[0-9]+,[0-9]+", plain) and comma is not False:
         return Unclear(f"{quoted(text)} is one number with a decimal comma, or two numbers")
     numbers = tuple(Fraction(int(one)) for one in re.findall(r"[+-]?[0-9]{1,20}", plain))
+    if max(numbers) - min(numbers) != len(set(numbers)) - 1:
+        return Unclear(f"{quoted(text)} lists single numbers with gaps, or is a range")
     return Limits(min(numbers), max(numbers), numbers)
 
 

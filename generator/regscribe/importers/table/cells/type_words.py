@@ -18,7 +18,7 @@ _SYNONYMS = {
     WireType.UINT16: "ushort unsignedshort uword count pad raw16 acc16 uint16t unsignedword u16bit",
     WireType.INT16: "short sword signedshort sunssf int16t signedword shortint",
     WireType.UINT32: "udint dword udword unsigneddword uint32t acc32 unsigneddoubleword doubleword",
-    WireType.INT32: "dint sdword signeddword int32t signeddoubleword",
+    WireType.INT32: "dint sdword signeddword int32t signeddoubleword doubleint doubleinteger",
     WireType.UINT64: "ulint qword lword uqword acc64 uint64t ulonglong unsignedlonglong",
     WireType.INT64: "lint sqword longlong signedlonglong int64t",
     WireType.FLOAT32: "real single fp32 ieee754 ieee floatieee floatieee754 ieee754float real32 floatingpoint fp"

@@ -34,6 +34,9 @@ __all__ = [
 ]
 
 
+WORD_BITS = 16
+
+
 @dataclass(frozen=True, slots=True, kw_only=True)
 class TypeCell:
     """The type that a row says.
@@ -41,7 +44,7 @@ class TypeCell:
     `type` is None where it says an order or a kind alone. `words` are the registers that it takes, 0 if not said (a
     text without length). Orders are None where the cell says none. `kind` is `flags`, `enum` or `boolean`, where a word
     says so. `encoding` is that of a text, `layout` that of a date, if they are said; `signed` is a sign without a
-    width. `stated` says in a sentence how a length was read.
+    width, `bits` the number of bits of a part of a word (`2bit`). `stated` says in a sentence how a length was read.
     """
 
     type: WireType | None = None
@@ -52,6 +55,7 @@ class TypeCell:
     encoding: str = ""
     layout: str = ""
     signed: bool | None = None
+    bits: int = 0
     stated: str = ""
 
 
@@ -107,7 +111,7 @@ def _checked(found: TypeCell, sized: Size | None, text: str, size: str) -> TypeC
 
 def _type(words: _Words) -> TypeCell | Unclear:
     """The type that words without an order say."""
-    for reading in (_fixed, _of_dialect, _text, _kind, _numbered, _signed, _unix, _bracketed):
+    for reading in (_fixed, _of_dialect, _text, _kind, _numbered, _signed, _unix, _bracketed, _part):
         if found := reading(words):
             return found
     return _unknown(words.folded, words.text)
@@ -150,6 +154,12 @@ def _signed(words: _Words) -> TypeCell | Unclear | None:
     return _cell(f"{stem}{words.size.bits}") or Unclear(f"there is no {stem} of {words.size.bits} bits")
 
 
+def _part(words: _Words) -> TypeCell | None:
+    """`2bit`: a part of a word, whose place the address says."""
+    found = re.fullmatch(r"([0-9]{1,2})bits?", words.folded)
+    return TypeCell(bits=int(found[1])) if found and 0 < int(found[1]) < WORD_BITS else None
+
+
 def _unix(words: _Words) -> TypeCell | None:
     """Seconds since 1970, whose width another column says."""
     layouts = {2: "unix", 4: "unix64"}
@@ -176,7 +186,7 @@ def _bracketed(words: _Words) -> TypeCell | Unclear | None:
 
 def _kind(words: _Words) -> TypeCell | Unclear | None:
     """A word that says of what kind the value is: its number is unsigned, of 16 bits if nothing else is said."""
-    folded = re.sub(r"([0-9]+)digits?bcd", r"bcd\1", words.folded)
+    folded = re.sub(r"([0-9]+)(?:digits?|bits?)(bcd|flags|bitmap|enum)", r"\2\1", words.folded)
     found = re.fullmatch(r"([a-z]+?)([0-9]*)(?:bits?|digits?)?", folded)
     kind = KINDS.get(found[1]) if found else None
     if not found or not kind:

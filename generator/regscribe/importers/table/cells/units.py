@@ -85,6 +85,12 @@ def parse_unit(text: str) -> UnitCell | Unclear | None:
     return _with_factor(plain, text) or found or Unclear(f"{quoted(text)} is no unit")
 
 
+def may_scale(text: str) -> bool:
+    """Whether an unclear unit may hold a scale (`0.1?`), so that the number hangs on it."""
+    plain = clean(text)
+    return bool(re.match(r"[x*\u00d7+-]?\s*[.,]?[0-9]", plain)) and not re.match(r"[0-9]+\s*[=:]", plain)
+
+
 def _with_factor(plain: str, text: str) -> UnitCell | Unclear | None:
     """The unit behind a factor; None where no factor stands."""
     factor: Fraction | Unclear

@@ -88,3 +88,8 @@ def test_a_decimal_reads_back_with_a_point_and_with_a_comma(value: object) -> No
     exact = Fraction(str(value))
     assert number(show(exact), comma=False) == exact
     assert number(show(exact).replace(".", ","), comma=True) == exact
+
+
+def test_a_cell_of_5_megabytes_is_no_number_and_takes_no_time() -> None:
+    assert isinstance(number("1" * 5_000_000), Unclear)
+    assert isinstance(number("1" + " " * 5_000_000 + "x"), Unclear)

@@ -81,6 +81,13 @@ def test_what_is_no_straight_line_is_unclear(text: str) -> None:
     assert isinstance(parse_scale(text, Way.MULTIPLY), Unclear)
 
 
+@pytest.mark.parametrize("text", ["value*10", "Wert*10", "x*100"])
+def test_a_product_that_may_be_what_the_device_sends_is_unclear(text: str) -> None:
+    assert isinstance(parse_scale(text), Unclear)
+    assert parse_scale("value / 10") == TENTH
+    assert parse_scale("raw*10") == parse_scale("value = 10*x") == Scale(Fraction(10))
+
+
 @pytest.mark.parametrize("text", ["0", "/0", "x0"])
 def test_a_scale_of_0_is_unclear(text: str) -> None:
     assert isinstance(parse_scale(text, Way.MULTIPLY), Unclear)
@@ -189,5 +196,5 @@ def test_no_formula_raises(text: str) -> None:
 
 @given(st.fractions(min_value=-1000, max_value=1000, max_denominator=1000).filter(bool), st.integers(-500, 500))
 def test_a_formula_reads_back(factor: Fraction, add: int) -> None:
-    text = f"({factor.numerator}*x)/{factor.denominator}+{add}" if add >= 0 else f"x*{show(factor)}-{-add}"
+    text = f"({factor.numerator}*raw)/{factor.denominator}+{add}" if add >= 0 else f"raw*{show(factor)}-{-add}"
     assert parse_scale(text) == Scale(factor, Fraction(add))

@@ -112,9 +112,16 @@ def test_what_says_no_type_for_sure_is_unclear_with_a_proposal(text: str, said: 
     assert said in found.proposal
 
 
-@pytest.mark.parametrize("text", ["xyz", "16 bit", "2bit", "signed", "Unsigned", "float48", "uint7"])
+@pytest.mark.parametrize("text", ["xyz", "16 bit", "signed", "Unsigned", "float48", "uint7"])
 def test_what_is_no_type_is_unclear(text: str) -> None:
     assert isinstance(parse_type(text, USUAL), Unclear)
+
+
+def test_some_bits_are_a_part_of_a_word() -> None:
+    assert parse_type("2bit", USUAL) == TypeCell(bits=2)
+    found = parse_type("16bit_flags", USUAL)
+    assert isinstance(found, TypeCell)
+    assert (found.type, found.kind) == (WireType.UINT16, "flags")
 
 
 def test_a_size_completes_a_type() -> None:

@@ -8,7 +8,7 @@ from hypothesis import strategies as st
 
 from regscribe.importers.table.cells import Unclear
 from regscribe.importers.table.cells.access import AccessCell, parse_access
-from regscribe.importers.table.cells.units import UnitCell, parse_unit
+from regscribe.importers.table.cells.units import UnitCell, may_scale, parse_unit
 from regscribe.model import Access, Space
 from regscribe.model.units import KNOWN_UNITS
 
@@ -76,6 +76,18 @@ def test_what_is_no_unit_for_sure_is_unclear(text: str, said: str) -> None:
     assert said in found.reason
 
 
+def test_an_unclear_unit_with_a_number_may_hold_the_scale() -> None:
+    assert [may_scale(text) for text in ("0.1?", "01.c", "-0.1A", "x10", "Mw", "0=Open;1=Closed", "enum")] == [
+        True,
+        True,
+        True,
+        True,
+        False,
+        False,
+        False,
+    ]
+
+
 def test_a_unit_that_a_map_must_declare_is_kept_as_it_is() -> None:
     assert parse_unit("pulses") == UnitCell("pulses", known=False)
 
@@ -98,7 +110,7 @@ R, RW, W = Access.READ, Access.READ_WRITE, Access.WRITE
     [
         *((text, R) for text in ("R", "RO", "r/o", "RD", "read", "Read-Only", "Lesen", "lecture", "nur lesen", "ROF")),
         *((text, RW) for text in ("RW", "R/W", "r w", "W/R", "read/write", "Lesen/Schreiben", "lecture/écriture")),
-        *((text, RW) for text in ("RWC", "Read & Write", "lettura e scrittura", "Lesen und Schreiben", "读写")),
+        *((text, RW) for text in ("Read & Write", "lettura e scrittura", "Lesen und Schreiben", "读写")),
         *((text, W) for text in ("W", "WO", "write only", "W/O", "Schreiben", "WD")),
     ],
 )
@@ -110,6 +122,15 @@ def test_what_else_a_cell_says_is_kept() -> None:
     assert parse_access("R (W with code)") == AccessCell(RW, "w with code")
     assert parse_access("R/W with password") == AccessCell(RW, "with password")
     assert parse_access("R (installer)") == AccessCell(R, "installer")
+
+
+def test_a_mark_of_a_footnote_is_kept_as_a_remark() -> None:
+    assert parse_access("R/W*") == AccessCell(RW, "*")
+
+
+def test_what_is_written_by_a_command_is_unclear() -> None:
+    assert isinstance(parse_access("R/WC"), Unclear)
+    assert isinstance(parse_access("RWC"), Unclear)
 
 
 def test_yes_and_no_answer_the_heading() -> None:
