@@ -93,7 +93,21 @@ def _unlike(labels: Mapping[int, str]) -> dict[int, Any]:
     return found
 
 
-def add_access(making: Making, whole: Whole, choices: Choices) -> None:
+READS, WRITES = frozenset({1, 2, 3, 4, 23}), frozenset({5, 6, 15, 16, 22, 23})
+"""Functions that read, and functions that write."""
+
+
+def _by_functions(whole: Whole, index: int) -> Access | None:
+    """The access that the functions of a row say, in a table that names functions which write."""
+    functions = set(whole.functions[index])
+    if not functions or not any(WRITES & set(each) for each in whole.functions):
+        return None
+    if functions & WRITES:
+        return Access.READ_WRITE if functions & READS else Access.WRITE
+    return Access.READ
+
+
+def add_access(making: Making, whole: Whole, index: int, choices: Choices) -> None:
     """Set the access; where it is not stated, a register is read only, and a person is asked."""
     text = making.item["access"]
     found = parse_access(text, whole.headings.get("access", ""), making.space)
@@ -101,6 +115,9 @@ def add_access(making: Making, whole: Whole, choices: Choices) -> None:
         making.set({"access": str(found.access)})
         if found.remark:
             making.lose("access-remark", f"access `{text[:40]}`: {found.remark}")
+        return
+    if found is None and (by_functions := _by_functions(whole, index)):
+        making.set({"access": str(by_functions)})
         return
     given = choices.access
     if given is not None and not (making.space.write_functions or given is Access.READ):

@@ -6,8 +6,8 @@ from regscribe.draft.numbers import plain, unscaled
 from regscribe.importers.table.cells import Unclear
 from regscribe.importers.table.cells.ranges import Limits, Settled, parse_number
 from regscribe.importers.table.cells.scales import PLAIN, Scale, parse_offset
-from regscribe.importers.table.cells.types import TypeCell, parse_order, parse_type
-from regscribe.importers.table.cells.units import UnitCell, parse_unit
+from regscribe.importers.table.cells.types import TypeCell, parse_order
+from regscribe.importers.table.cells.units import UnitCell, may_scale, parse_unit
 from regscribe.importers.table.choices import Choices
 from regscribe.importers.table.making import LeftOutError, Making
 from regscribe.importers.table.whole import Whole
@@ -24,11 +24,10 @@ def add_type(making: Making, whole: Whole, index: int, choices: Choices, *, code
 
     Raises LeftOutError where the type is not known.
     """
-    item = making.item
     if making.space.is_bits:
         _type_of_bit(making)
         return
-    found = parse_type(item["type"], whole.dialect, size=item["length"], gap=whole.gaps[index])
+    found = whole.types[index]
     if isinstance(found, Unclear):
         msg = "type-unclear"
         raise LeftOutError(msg, found.message)
@@ -133,8 +132,8 @@ def _scale(making: Making, whole: Whole, index: int) -> Scale | Unclear:
     unit = parse_unit(making.item["unit"])
     if isinstance(unit, UnitCell) and unit.factor is not None:
         said.append(Scale(unit.factor))
-    elif isinstance(unit, Unclear) and any(map(str.isdigit, making.item["unit"])):
-        return unit  # it may be a factor
+    if isinstance(unit, Unclear) and may_scale(making.item["unit"]):
+        return unit
     if len({(one.multiply, one.add) for one in said}) > 1:
         texts = ", ".join(f"`{making.item[role][:30]}`" for role in ("scale", "decimals", "unit") if making.item[role])
         return Unclear(f"{texts} say different scales")
@@ -152,7 +151,8 @@ def add_unit(making: Making) -> None:
     text = making.item["unit"]
     found = parse_unit(text)
     if isinstance(found, Unclear):
-        making.ask("unit-unclear", found)
+        if not may_scale(text):  # the scale is unclear then, which is told
+            making.ask("unit-unclear", found)
         return
     symbol = found.symbol if found is not None else ""
     beside = making.scale.unit if making.scale is not None else ""
@@ -197,10 +197,11 @@ def _range_text(limits: Limits) -> str:
 NOTHING = frozenset({"", "-", "--", "n/a", "na", "none", "?"})
 
 
-def printed_default(making: Making, whole: Whole) -> Fraction | Unclear | None:
+def printed_default(making: Making, whole: Whole, index: int) -> Fraction | Unclear | None:
     """The default as printed; of a text or of codes it is set at once."""
-    text = making.item["default"]
-    if text.casefold() in NOTHING:
+    item, text = making.item, making.item["default"]
+    unstated = whole.limits[index] is None and item["min"] == item["max"] == text  # three times 0
+    if text.casefold() in NOTHING or unstated:
         return None
     if making.wire is WireType.STRING:
         making.set({"default": text})

@@ -11,7 +11,8 @@ from regscribe.importers.table.cells.addresses import Address
 from regscribe.importers.table.cells.detect import Row as Detected
 from regscribe.importers.table.cells.ranges import Limits, Ranged, Settled, settle_ranges
 from regscribe.importers.table.cells.scales import PLAIN
-from regscribe.importers.table.cells.types import TypeCell, parse_type
+from regscribe.importers.table.cells.types import TypeCell
+from regscribe.importers.table.cells.units import parse_unit
 from regscribe.importers.table.choices import Choices
 from regscribe.importers.table.grid import Grid
 from regscribe.importers.table.layout import Item
@@ -109,29 +110,31 @@ def _begun(item: Item, index: int, whole: Whole) -> tuple[Making, Address]:
 
 def _grown(making: Making, address: Address, index: int, whole: Whole, choices: Choices, entry: Entry) -> Half:
     """A register with all but range and default. Raises LeftOutError where its number is not understood."""
-    item, bits = making.item, address.bits or _bit(making.item)
+    item, kind = making.item, whole.types[index]
+    making.type = kind if isinstance(kind, TypeCell) else TypeCell()
+    bits = _bits(making, address.bits or _bit(making.item))
     name = name_of(making)
     making.set({"at": making.at, "name": name[:LONGEST_NAME]})
     if len(name) > LONGEST_NAME:
         making.tell("name-cut", f"its name has {len(name)} characters; {LONGEST_NAME} are kept")
     making.set({} if making.space is Space.HOLDING else {"space": str(making.space)})
-    add_access(making, whole, choices)
-    kind = parse_type(item["type"], whole.dialect, size=item["length"], gap=whole.gaps[index])
-    making.type = kind if isinstance(kind, TypeCell) else TypeCell()
+    add_access(making, whole, index, choices)
     codes = codes_of(making)
     add_type(making, whole, index, choices, coded=codes is not None or bits is not None)
     _check_count(making, address)
     limits: Limits | Unclear | None = None
     if codes is not None:
         add_codes(making, codes)
-        _number_of_codes(making, whole, index)
+        _number_lost(making, whole, index, "codes")
     elif making.wire not in KINDS and not making.space.is_bits:
         add_scale(making, whole, index)  # before the unit, which a scale may say (`1 = 0.1 A`)
         add_unit(making)
         limits = whole.limits[index] if item["range"] or item["min"] or item["max"] else None
         if making.type.kind == "boolean":
             making.set({"kind": "boolean"})
-    default = printed_default(making, whole)
+    else:
+        _number_lost(making, whole, index, "a bit" if making.space.is_bits else f"a {making.wire}")
+    default = printed_default(making, whole, index)
     return Half(replace(entry, name=name), making, bits, limits, default)
 
 
@@ -183,12 +186,37 @@ def _check_count(making: Making, address: Address) -> None:
         raise LeftOutError(code, message)
 
 
-def _number_of_codes(making: Making, whole: Whole, index: int) -> None:
-    """Say what a register of codes has of a number, which is not kept."""
+def _bits(making: Making, bits: tuple[int, int] | None) -> tuple[int, int] | None:
+    """The bits of a part of a word: from the place that the address says, as many as the type says."""
+    count = making.type.bits
+    if not count:
+        return bits
+    if bits is None or (bits[0] != bits[1] and bits[1] - bits[0] + 1 != count) or bits[0] + count > BITS:
+        code, message = "bit-unclear", f"type `{making.item['type'][:30]}`: which {count} bits of the word is not said"
+        raise LeftOutError(code, message)
+    return bits[0], bits[0] + count - 1
+
+
+BITS = 16
+"""Those of a word."""
+
+
+def _number_lost(making: Making, whole: Whole, index: int, what: str) -> None:
+    """Say what a register of codes, of a text or of a bit has of a number, which is not kept."""
     item = making.item
     for cells, role in ((whole.scales, "scale"), (whole.decimals, "decimals")):
         cell = cells.cells[index]
         if cell is not None and cell != PLAIN:
-            making.lose("scale-of-codes", f"{role} `{item[role][:30]}` does not go with codes")
-    if item["unit"] and item["unit"] not in {"-", "--", "/"}:
-        making.lose("unit-of-codes", f"unit `{item['unit'][:30]}` does not go with codes")
+            making.lose(f"{role}-lost", f"{role} `{item[role][:30]}` does not go with {what}")
+    if item["unit"] and parse_unit(item["unit"]) is not None:
+        making.lose("unit-lost", f"unit `{item['unit'][:30]}` does not go with {what}")
+    limits = whole.limits[index]
+    printed = item["range"] or "..".join(filter(None, (item["min"], item["max"])))
+    if printed and limits is not None and not _are_codes(making, limits):
+        making.lose("range-lost", f"range `{printed[:30]}` does not go with {what}")
+
+
+def _are_codes(making: Making, limits: Limits | Unclear) -> bool:
+    """Whether a range says no more than that the codes are the codes, or that a bit is 0 or 1."""
+    codes = making.keys.get("enum", {0: "", 1: ""} if making.space.is_bits else {})
+    return isinstance(limits, Limits) and bool(codes) and limits.numbers == (min(codes), max(codes))

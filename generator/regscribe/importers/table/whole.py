@@ -29,13 +29,14 @@ Parsed = Address | Unclear | None
 class Whole:
     """What the table says as a whole, row by row where it does.
 
-    `limits` are ranges as printed; `comma`: whether commas are decimal points (None: nothing shows it); `base` is what
-    the option of that name would say.
+    `functions` are those that a row names; `limits` are ranges as printed; `comma`: whether commas are decimal points
+    (None: nothing shows it); `base` is what the option of that name would say.
     """
 
     addresses: tuple[Parsed, ...]
     spaces: tuple[Space | Unclear, ...]
-    gaps: tuple[int, ...]
+    functions: tuple[tuple[int, ...], ...]
+    types: tuple[TypeCell | Unclear | None, ...]
     dialect: Dialect
     scales: ScaleColumn
     decimals: ScaleColumn
@@ -59,10 +60,12 @@ def whole_of(items: Sequence[Item], columns: Sequence[Column], choices: Choices,
     choice = choose_dialect(_texts(items, "type"), _texts(items, "length"), gaps, said=choices.dialect)
     comma = decimal_comma(text for role in NUMBERS for text in _texts(items, role))
     limits, why_limits = _limits(items, comma)
-    types = [_wire(item, choice.dialect, gap, choices) for item, gap in zip(items, gaps, strict=True)]
+    types = tuple(
+        _type(item, cell, choice.dialect, gap) for item, cell, gap in zip(items, found.cells, gaps, strict=True)
+    )
     hints_of_scale = [
         Hint(one.numbers, wire) if isinstance(one, Limits) and wire is not None else None
-        for one, wire in zip(limits, types, strict=True)
+        for one, wire in zip(limits, [_wire(one, choices) for one in types], strict=True)
     ]
     heading = headings.get("scale", "")
     scales = parse_scales(_texts(items, "scale"), heading, way=choices.scale, hints=hints_of_scale)
@@ -76,9 +79,9 @@ def whole_of(items: Sequence[Item], columns: Sequence[Column], choices: Choices,
         why_limits,
     )
     plain = tuple(filter(None, stated))
-    return Whole(
-        found.cells, spaces, gaps, choice.dialect, scales, decimals, limits, comma, headings, plain, found.words
-    )
+    functions = tuple(cell.functions if isinstance(cell, SpaceCell) else () for cell in said.cells)
+    known = (found.cells, spaces, functions, types, choice.dialect)
+    return Whole(*known, scales, decimals, limits, comma, headings, plain, found.words)
 
 
 def _limits(items: Sequence[Item], comma: bool | None) -> tuple[tuple[Limits | Unclear | None, ...], str]:  # noqa: FBT001 - three states
@@ -96,8 +99,13 @@ def _limits(items: Sequence[Item], comma: bool | None) -> tuple[tuple[Limits | U
     return tuple(found), why
 
 
-def _wire(item: Item, dialect: Dialect, gap: int, choices: Choices) -> WireType | None:
-    found = parse_type(item["type"], dialect, size=item["length"], gap=gap)
+def _type(item: Item, address: Parsed, dialect: Dialect, gap: int) -> TypeCell | Unclear | None:
+    """The type of a row; the registers of a range are its size where no cell says one."""
+    count = address.count if isinstance(address, Address) and item["type"] else 0
+    return parse_type(item["type"], dialect, size=item["length"] or (f"{count} registers" if count else ""), gap=gap)
+
+
+def _wire(found: TypeCell | Unclear | None, choices: Choices) -> WireType | None:
     return (found.type if isinstance(found, TypeCell) else None) or choices.type
 
 
