@@ -6,7 +6,7 @@ from collections.abc import Callable, Mapping, Sequence
 from regscribe.importers.table.cells import Unclear
 from regscribe.importers.table.cells.access import AccessCell, parse_access
 from regscribe.importers.table.cells.enums import Codes, parse_codes
-from regscribe.importers.table.cells.spaces import SpaceCell, parse_space
+from regscribe.importers.table.cells.spaces import SpaceCell, parse_spaces
 from regscribe.importers.table.cells.types import Dialect, TypeCell, parse_type
 from regscribe.importers.table.cells.units import UnitCell, parse_unit
 from regscribe.importers.table.headings import AT, ROLES
@@ -18,7 +18,7 @@ FEWEST = 6
 SEEN = 400
 """Cells of a column that are looked at."""
 
-ADDRESS = re.compile(r"(?=.*[0-9])[A-Za-z$:]{0,4}[\s#]?[0-9A-Fa-f][\w\s.,:~/\[\]()-]{0,24}")
+ADDRESS = re.compile(r"(?=.*[0-9])[A-Za-z$%:]{0,4}[\s#]?[0-9A-Fa-f][\w\s.,:~/\[\]()-]{0,24}")
 """A text that may be an address: a number, perhaps with a prefix, a suffix, a second number."""
 
 DIALECT = Dialect(characters=True, size_bits=16, little_bytes=False)
@@ -47,7 +47,7 @@ def is_size(text: str) -> bool:
 
 def is_space(text: str) -> bool:
     """Whether a text is an address space or a function code."""
-    return isinstance(parse_space(text), SpaceCell)
+    return isinstance(parse_spaces([text], digits="function").cells[0], SpaceCell)
 
 
 def is_unit(text: str) -> bool:
@@ -65,6 +65,7 @@ CONTENTS: Mapping[str, Callable[[str], bool]] = {"type": is_type, "access": is_a
 
 _ELSE: Mapping[str, tuple[Callable[[str], bool], Mapping[str, Callable[[str], bool]], str]] = {
     AT: (is_address, {}, "name"),
+    "name": (lambda text: not text.isdecimal(), {"length": str.isdecimal}, "name"),
     "type": (is_type, {"space": is_space, "access": is_access}, "type"),
     "length": (is_size, {"type": is_type}, "length"),
     "space": (is_space, {"type": is_type}, "description"),
@@ -78,7 +79,12 @@ def judge(role: str, cells: Sequence[str], *, known: bool) -> tuple[str, str]:
     """The role of a column whose heading claims one, with the evidence; its cells may show that it is another."""
     filled = [cell for cell in cells if cell][:SEEN]
     said = f"a heading for {ROLES[role]}" if known else f"a word for {ROLES[role]} in the heading"
-    if role == "name" and len(filled) >= FEWEST and len(set(filled)) * 2 < len(filled):
+    if (
+        role == "name"
+        and not all(map(str.isdecimal, filled))
+        and len(filled) >= FEWEST
+        and len(set(filled)) * 2 < len(filled)
+    ):
         return "group", f"{said}, but {len(filled)} cells have {len(set(filled))} texts"
     if role not in _ELSE or not filled:
         return role, said

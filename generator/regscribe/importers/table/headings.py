@@ -96,7 +96,7 @@ _WORDS: Mapping[str, str] = {  # each list from the plainest word to the one tha
     "measurement unit | einheit | masseinheit | einheiten | unite | unites | unita | unita di misura | u m | "
     "um | unidad | unidades | eenheid | enhet | jednostka | jednostki | jm | 单位",
     "range": "range | value range | valid range | limits | values range | allowed range | data range | "
-    "setting range | min max | min to max | range min max | bereich | wertebereich | einstellbereich | plage | "
+    "setting range | scope | min max | min to max | range min max | bereich | wertebereich | einstellbereich | plage | "
     "plage de valeurs | plage de reglage | intervallo | campo | campo di valori | gamma | range valori | rango | "
     "intervalo | rango de valores | bereik | waardebereik | omrade | vardeomrade | intervall | zakres | "
     "zakres wartosci | 范围 | 取值范围 | 数据范围 | 设定范围",

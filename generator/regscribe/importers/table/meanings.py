@@ -7,6 +7,8 @@ from regscribe.files import OneLine
 from regscribe.importers.table.cells import Unclear
 from regscribe.importers.table.cells.access import AccessCell, parse_access
 from regscribe.importers.table.cells.enums import Codes, parse_codes
+from regscribe.importers.table.cells.limits import Limits
+from regscribe.importers.table.cells.scales import PLAIN
 from regscribe.importers.table.choices import Choices
 from regscribe.importers.table.making import Making
 from regscribe.importers.table.whole import Whole
@@ -38,7 +40,7 @@ def name_of(making: Making) -> str:
     return f"{str(making.space).title()} {making.at}"
 
 
-def codes_of(making: Making) -> Codes | None:
+def codes_of(making: Making, whole: Whole, index: int) -> Codes | None:
     """The codes or bits that the row says, in a column of their own, else in place of a unit or a range."""
     item, flags, width = making.item, making.type.kind == "flags" or None, 16 * max(making.words, 1)
     for role, bits in (("values", flags), ("bits", True)):
@@ -47,21 +49,31 @@ def codes_of(making: Making) -> Codes | None:
             return found
         if found is not None:
             making.ask(f"{role}-unclear", found)
-    return _misplaced(making)
+    return _misplaced(making, whole, index)
 
 
-def _misplaced(making: Making) -> Codes | None:
+def _misplaced(making: Making, whole: Whole, index: int) -> Codes | None:
     """Codes that stand under range or unit; in a description only where nothing says that the register is a number."""
-    item = making.item
-    number = any(item[role] for role in ("unit", "scale", "decimals", "offset", "range", "min", "max"))
+    item, limits = making.item, whole.limits[index]
+    number = any(item[role] for role in ("unit", "decimals", "offset")) or whole.scales.cells[index] not in {
+        None,
+        PLAIN,
+    }
     for role in ("range", "unit", *(() if number else ("description",))):
         flags = making.type.kind == "flags" or None
         found = parse_codes(item[role], flags=flags, width=16 * max(making.words, 1)) if item[role] else None
-        if isinstance(found, Codes) and len(found.labels) > 1:
+        if isinstance(found, Codes) and len(found.labels) > 1 and (role != "description" or _all(found, limits)):
             making.tell("codes-read", f"its codes stand under {role}")
             item.cells[role] = found.lead if role == "description" else ""
             return found
     return None
+
+
+def _all(codes: Codes, limits: Limits | Unclear | None) -> bool:
+    """Whether codes are all numbers of a range, so that they are no remarks on some of them."""
+    if not isinstance(limits, Limits):
+        return limits is None
+    return limits.low == min(codes.labels) and limits.high == max(codes.labels)
 
 
 def add_codes(making: Making, codes: Codes) -> None:
@@ -69,9 +81,9 @@ def add_codes(making: Making, codes: Codes) -> None:
     labels: dict[Any, Any] = _unlike({code: clean(label) for code, label in codes.labels.items()})
     if codes.flags and codes.none:
         labels["none"] = clean(codes.none)
+    if codes.other and not codes.flags:
+        labels["other"] = clean(codes.other)
     making.set({"flags" if codes.flags else "enum": OneLine(labels)})
-    if codes.other:
-        making.lose("codes-other", f"all other codes are called `{codes.other[:40]}`, which an enum cannot say")
     if codes.none and not codes.flags:
         making.lose("codes-none", f"`{codes.none[:40]}` stands for no bit, which an enum cannot say")
     for low, high, label in codes.ranges:

@@ -4,6 +4,7 @@ from fractions import Fraction
 
 from regscribe.draft.numbers import plain, unscaled
 from regscribe.importers.table.cells import Unclear
+from regscribe.importers.table.cells.orders import order_in
 from regscribe.importers.table.cells.ranges import Limits, Settled, parse_number
 from regscribe.importers.table.cells.scales import PLAIN, Scale, parse_offset
 from regscribe.importers.table.cells.types import TypeCell, parse_order
@@ -86,7 +87,10 @@ def _check_type(making: Making) -> None:
 def _add_orders(making: Making, whole: Whole, choices: Choices) -> None:
     """Orders by the type, else by a column of their own, else as the user says; the rest is stated for the table."""
     words, octets = making.type.word_order, making.type.byte_order
-    said = parse_order(making.item["word_order"], little_bytes=whole.dialect.little_bytes)
+    item, little = making.item, whole.dialect.little_bytes
+    said = parse_order(item["word_order"], little_bytes=little)
+    if said is None and words is None and making.words > 1:
+        said = order_in(item["description"], little_bytes=little)
     if isinstance(said, Unclear):
         if making.words > 1:
             msg = "order-unclear"

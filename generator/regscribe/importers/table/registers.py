@@ -119,7 +119,7 @@ def _grown(making: Making, address: Address, index: int, whole: Whole, choices: 
         making.tell("name-cut", f"its name has {len(name)} characters; {LONGEST_NAME} are kept")
     making.set({} if making.space is Space.HOLDING else {"space": str(making.space)})
     add_access(making, whole, index, choices)
-    codes = codes_of(making)
+    codes = codes_of(making, whole, index)
     add_type(making, whole, index, choices, coded=codes is not None or bits is not None)
     _check_count(making, address)
     limits: Limits | Unclear | None = None
@@ -130,6 +130,8 @@ def _grown(making: Making, address: Address, index: int, whole: Whole, choices: 
         add_scale(making, whole, index)  # before the unit, which a scale may say (`1 = 0.1 A`)
         add_unit(making)
         limits = whole.limits[index] if item["range"] or item["min"] or item["max"] else None
+        if making.type.kind == "flags":
+            making.tell("bits-unnamed", f"type `{item['type'][:30]}`: no cell says what its bits mean")
         if making.type.kind == "boolean":
             making.set({"kind": "boolean"})
     else:
@@ -219,4 +221,4 @@ def _number_lost(making: Making, whole: Whole, index: int, what: str) -> None:
 def _are_codes(making: Making, limits: Limits | Unclear) -> bool:
     """Whether a range says no more than that the codes are the codes, or that a bit is 0 or 1."""
     codes = making.keys.get("enum", {0: "", 1: ""} if making.space.is_bits else {})
-    return isinstance(limits, Limits) and bool(codes) and limits.numbers == (min(codes), max(codes))
+    return isinstance(limits, Limits) and bool(codes) and limits.low == min(codes) and limits.high == max(codes)

@@ -23,7 +23,7 @@ _READ = (
     r"|\u53ea\u8bfb|\u8bfb"
 )
 _WRITE = (
-    r"w|wo|w o|wd|wr|write|writing|writable|write only|set|schreiben|nur schreiben|schreibbar|schreibend"
+    r"w|s|wo|w o|wd|wr|write|writing|writable|write only|set|schreiben|nur schreiben|schreibbar|schreibend"
     r"|\u00e9criture|ecriture|scrittura|escritura|schrijven|skriv|skrivning|zapis|escrita|\u53ea\u5199|\u5199"
 )
 _BOTH = r"rw|wr|rwd|r w|l s|l e|ls|le|read write|lesen schreiben|\u8bfb\u5199|read and write|read or write"

@@ -157,9 +157,18 @@ def _together(first: _Reading, other: _Reading) -> _Reading:
     )
 
 
+_REGION_APART = re.compile(r"(?P<region>[0134])(?:0000[01]|000[01])")
+
+
 def _is_modicon(distance: int) -> bool:
     """Whether a number of Modicon's notation is so much above its wire address, or above its number in the region."""
-    return bool(re.fullmatch(r"[134](?:0000[01]|000[01])", str(distance)))
+    return _REGION_APART.fullmatch(str(distance)) is not None
+
+
+def _region_of(distance: int) -> Space | None:
+    """The space of a number that is so much above its wire address."""
+    found = _REGION_APART.fullmatch(str(distance))
+    return REGIONS[int(found["region"])] if found else None
 
 
 def _apart(first: _Reading, other: _Reading, at: int, both: str) -> Unclear | None:
@@ -188,12 +197,13 @@ def _counted(lower: _Reading, upper: _Reading, base: int, evidence: str) -> _Rea
     """The lower column as one that counts from `base`, with the spaces that the upper one says."""
     rule = replace(lower.rule, base=base, evidence=evidence, assumed=False, regions=False, unclear=None)
     cells: list[Address | Unclear | None] = []
-    for number, old, also in zip(lower.numbers, lower.cells, upper.cells, strict=True):
+    for number, high, old, also in zip(lower.numbers, upper.numbers, lower.cells, upper.cells, strict=True):
         if number is None:
             cells.append(old if old is not None else also)
             continue
         told = [cell for cell in (old, also) if isinstance(cell, Address)]
-        space = next((cell.space for cell in reversed(told) if cell.space), None)
+        apart = _region_of(high - number) if high is not None else None
+        space = apart or next((cell.space for cell in reversed(told) if cell.space), None)
         bits = next((cell.bits for cell in told if cell.bits), None)
         count = next((cell.count for cell in told if cell.count), 0)
         cells.append(

@@ -66,6 +66,21 @@ def parse_order(text: str, *, little_bytes: bool | None = None) -> Orders | Uncl
     return _orders(plain.strip("()[]"), text, little_bytes=little_bytes)
 
 
+_SAID = re.compile(
+    r"\b(?:abcd|cdab|badc|dcba|(?:low|high) word first|[lm]sw first|words? swapped|swapped words|lo-hi|hi-lo"
+    r"|(?:little|big)[\s-]endian)\b",
+    re.IGNORECASE,
+)
+
+
+def order_in(text: str, *, little_bytes: bool | None = None) -> Orders | Unclear | None:
+    """The order that a text says beside other things, in words that mean nothing else; None where it says none."""
+    found = {match[0].casefold() for match in _SAID.finditer(clean(text))}
+    if len(found) > 1:
+        return Unclear(f"{quoted(text)} names several orders of words")
+    return _orders(found.pop(), text, little_bytes=little_bytes) if found else None
+
+
 def split_order(plain: str, *, little_bytes: bool | None) -> tuple[str, Orders] | Unclear:
     """Take an order out of the words of a type: what is left of them, and the order (of nothing, if none stands)."""
     if found := _GLUED.fullmatch(plain):

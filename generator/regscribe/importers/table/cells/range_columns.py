@@ -68,7 +68,7 @@ def _rule(stored: int, values: int, counts: str) -> tuple[str, str]:
 
 def _fits(row: Ranged, *, stored: bool) -> bool:
     """Whether the type carries the limits, read as stored numbers or as values."""
-    if row.wire.is_octets:
+    if row.wire.is_octets or (stored and row.limits.has_point and not row.wire.is_float):
         return False
     numbers = row.limits.numbers if stored else tuple(map(row.scale.back, row.limits.numbers))
     if row.wire.is_float:

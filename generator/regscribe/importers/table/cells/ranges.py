@@ -92,7 +92,14 @@ def _both(low: str, high: str, text: str, *, comma: bool | None) -> Limits | Unc
         return last
     if first is not None and last is not None and first > last:
         return Unclear(f"the range {quoted(text)} ends at {show(last)}, below {show(first)} where it begins")
-    return Limits(first, last)
+    pairs = ((low, first), (high, last))
+    return Limits(first, last, has_point=any(number is not None and _has_point(part, number) for part, number in pairs))
+
+
+def _has_point(text: str, value: Fraction) -> bool:
+    """Whether digits stand behind the point: `50.0` does not have those of 50 alone."""
+    digits = re.sub(r"[^0-9]", "", text)
+    return bool(re.search(r"[.,][0-9]+$", text)) and Fraction(int(digits)) != abs(value)
 
 
 def parse_number(text: str, *, comma: bool | None = None) -> Fraction | Unclear | None:

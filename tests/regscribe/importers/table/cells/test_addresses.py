@@ -237,6 +237,11 @@ def test_a_column_of_modicon_numbers_says_the_spaces_of_the_other() -> None:
     assert wire(found) == [0, 1]
 
 
+def test_the_distance_of_two_columns_says_the_space_where_numbers_of_five_and_six_digits_mix() -> None:
+    found = two(("0x0000", "0xFC00"), ("30001", "464513"))
+    assert (wire(found), spaces_of(found)) == ([0, 0xFC00], [INPUT, HOLDING])
+
+
 @given(st.lists(st.text(max_size=14), min_size=1, max_size=6), st.text(max_size=12))
 def test_no_column_raises(texts: list[str], heading: str) -> None:
     assert len(column(*texts, heading=heading).cells) == len(texts)

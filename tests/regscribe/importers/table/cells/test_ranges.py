@@ -115,6 +115,15 @@ def test_a_range_that_may_count_both_is_unclear_with_both_readings() -> None:
     assert "0..10 " in f"{found.reason} "
 
 
+def test_digits_behind_a_point_count_values() -> None:
+    printed = parse_range("0,0..100,0")
+    assert isinstance(printed, Limits)
+    assert settle_range(printed, UINT16, TENTH) == Settled(limits("0", "100"))
+    thousands = parse_range("0..1.000", comma=True)
+    assert isinstance(thousands, Limits)
+    assert (thousands.high, thousands.has_point) == (1000, False)
+
+
 def test_rows_that_fit_in_one_way_decide_for_those_that_fit_in_both() -> None:
     both, stored = Ranged(limits("0", "100"), UINT16, TENTH), Ranged(limits("0", "65535"), UINT16, TENTH)
     found = settle_ranges([both, None, stored])

@@ -5,6 +5,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from regscribe.importers.table.cells import Unclear
+from regscribe.importers.table.cells.orders import order_in
 from regscribe.importers.table.cells.types import (
     Dialect,
     TypeCell,
@@ -234,6 +235,14 @@ def test_what_the_user_says_of_a_dialect_wins() -> None:
 )
 def test_a_cell_of_an_order(text: str, orders: tuple[Order | None, Order | None]) -> None:
     assert parse_order(text) == orders
+
+
+def test_an_order_in_a_longer_text() -> None:
+    assert order_in("total energy, low word first") == (LITTLE, None)
+    assert order_in("floats are CDAB") == (LITTLE, BIG)
+    assert order_in("the words are swapped by hand") is None
+    assert isinstance(order_in("stored in little endian"), Unclear)
+    assert isinstance(order_in("ABCD or CDAB, see register 4"), Unclear)
 
 
 def test_an_order_that_nobody_knows_is_unclear() -> None:
