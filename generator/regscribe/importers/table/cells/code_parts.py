@@ -25,7 +25,7 @@ class Part:
     lead: str = ""
 
 
-_BIT = r"(?:bits?|b|d)[\s_#.]*"
+_BIT = r"(?:bits?[ \t_#.]*|[bd][_.]?)"
 _NUMBER = r"0x[0-9a-f]{1,16}|[0-9a-f]{1,8}h(?![a-z])|-?[0-9]{1,20}"
 _TO = r"\s*(?:\.\.+|~|\u2026|-|\bto\b|\u2013)\s*"
 _CODE = rf"(?P<bit>{_BIT})?(?P<low>{_NUMBER})(?:{_TO}(?:{_BIT})?(?P<high>{_NUMBER}))?"

@@ -238,7 +238,7 @@ def test_a_column_of_modicon_numbers_says_the_spaces_of_the_other() -> None:
 
 
 def test_the_distance_of_two_columns_says_the_space_where_numbers_of_five_and_six_digits_mix() -> None:
-    found = two(("0x0000", "0xFC00"), ("30001", "464513"))
+    found = two(("0x0000", "0xFC00"), ("30001", "464513"), ("Wire", "Number"))
     assert (wire(found), spaces_of(found)) == ([0, 0xFC00], [INPUT, HOLDING])
 
 
