@@ -5,6 +5,7 @@ from typing import NamedTuple
 
 from regscribe.breaking.change import Difference, Effects
 from regscribe.breaking.facts import EXACT, B, C, Fact, H, N, compared, judged, text
+from regscribe.breaking.pairs import Pairs, paired
 from regscribe.breaking.plain import SAME_NAMES, Renames, plain
 from regscribe.breaking.rules import (
     CODE_ADDED,
@@ -86,32 +87,36 @@ def enum_differences(
 
 def _members(old: Enum, new: Enum, access: Access, renames: Renames) -> Iterator[Difference]:
     yield from compared(ENUM_FACTS, old, new, renames)
-    here = {(one.code, plain(one.when, renames.now)): one for one in new.members}
-    pairs = [(one, here[key]) for one in old.members if (key := (one.code, plain(one.when, renames))) in here]
-    gone = [one for one in old.members if not any(one is mine for mine, _ in pairs)]
-    come = [one for one in new.members if not any(one is theirs for _, theirs in pairs)]
-    for one in list(gone):  # a code whose condition alone differs
-        alike = [other for other in come if other.code == one.code]
-        if len(alike) == 1 and sum(each.code == one.code for each in gone) == 1:
-            pairs.append((one, alike[0]))
-            gone.remove(one)
-            come.remove(alike[0])
-    for mine, theirs in pairs:
+    pairs = _member_pairs(old, new, renames)
+    for mine, theirs in pairs.both:
         yield from _renamed(mine, theirs, old, new)
         for found in compared(MEMBER_FACTS, mine, theirs, renames):
             if found.what != "label" or mine.id == theirs.id:  # else the new name says it
-                yield found._replace(what=f"{found.what} of code {mine.code}")
+                yield found._replace(what=f"{found.what} of code {theirs.code}")
     retired = dict(new.invalid)
-    for one in gone:
+    for one in pairs.removed:
         effects = Effects(C, C) if one.code in retired else Effects(H, B)
         yield Difference(CODE_REMOVED, "code", effects, member_words(one), retired.get(one.code, "none"))
-    for one in come:
+    for one in pairs.added:
         effects = Effects(N, H if access.readable else C)
         yield Difference(CODE_ADDED, "code", effects, "none", member_words(one))
 
 
+def _member_pairs(old: Enum, new: Enum, renames: Renames) -> Pairs[Member]:
+    """Members by code and condition; then by code, where the condition alone differs; then by name."""
+    olds = {id(one) for one in old.members}
+
+    def key(member: Member) -> Hashable:
+        return member.code, plain(member.when, renames if id(member) in olds else renames.now)
+
+    return paired(old.members, new.members, key, [lambda one: one.code, lambda one: one.id])
+
+
 def _renamed(mine: Member, theirs: Member, old: Enum, new: Enum) -> Iterator[Difference]:
-    """Another name at a code: a new meaning if one of the names stands elsewhere too."""
+    """Another name at a code: a new meaning if one of the names stands elsewhere too. Another code of a name is one."""
+    if mine.code != theirs.code:
+        words = member_words(mine), member_words(theirs)
+        yield Difference(CODE_MEANING, f"code of {theirs.id}", Effects(B, N), *words)
     if mine.id == theirs.id:
         return
     moved = mine.id in {one.id for one in new.members} or theirs.id in {one.id for one in old.members}

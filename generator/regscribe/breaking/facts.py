@@ -5,7 +5,7 @@ from dataclasses import dataclass, field
 from typing import Any, Generic, TypeVar
 
 from regscribe.breaking.change import TEXT_ONLY, Difference, Effect, Effects
-from regscribe.breaking.plain import SAME_NAMES, UNCOMPARED, Renames, field_names, plain, plain_field
+from regscribe.breaking.plain import SAME_NAMES, UNCOMPARED, Renames, field_names, plain, plain_field, renamed_field
 from regscribe.breaking.rules import TEXT
 from regscribe.emit.words import Wording, condition_words, one_line
 from regscribe.model import Condition, Rule, show
@@ -48,7 +48,12 @@ class Fact(Generic[T]):
 
 def text(name: str, what: str = "") -> Fact[Any]:
     """A fact that only readers see."""
-    return Fact((name,), what or name, lambda _, __: (TEXT, TEXT_ONLY))
+    return Fact((name,), what or name, lambda _, __: (TEXT, TEXT_ONLY), lambda thing: _quoted(getattr(thing, name)))
+
+
+def _quoted(value: object) -> str:
+    """A text in quotes, so that it does not read as a part of the sentence; nothing for what is no text."""
+    return f'"{one_line(value)}"' if isinstance(value, str) and value else ""
 
 
 def compared(facts: Sequence[Fact[T]], old: T, new: T, renames: Renames = SAME_NAMES) -> Iterator[Difference]:
@@ -63,41 +68,41 @@ def _compared(fact: Fact[T], old: T, new: T, renames: Renames) -> Difference | N
     rule, effects = fact.judge(old, new)
     only_texts = rule is TEXT
     if fact.states(old, renames, texts=only_texts) != fact.states(new, renames.now, texts=only_texts):
-        return Difference(rule, fact.what, effects, *_words(fact, old, new))
+        return Difference(rule, fact.what, effects, *_words(fact, old, new, renames))
     if fact.states(old, renames, texts=True) != fact.states(new, renames.now, texts=True):
-        return Difference(TEXT, f"text of {fact.what}", TEXT_ONLY, *_words(fact, old, new))
+        return Difference(TEXT, f"text of {fact.what}", TEXT_ONLY, *_words(fact, old, new, renames))
     return None
 
 
-def _words(fact: Fact[T], old: T, new: T) -> tuple[str, str]:
+def _words(fact: Fact[T], old: T, new: T, renames: Renames) -> tuple[str, str]:
     """Words of both versions; of what has no words of its own, or the same ones, the first part that differs."""
     if fact.words(old) != fact.words(new):
         return fact.told(old), fact.told(new)
     for name in fact.fields:
-        one, other = getattr(old, name), getattr(new, name)
-        if plain_field(old, name, texts=True) != plain_field(new, name, texts=True):
-            return first_difference(one, other)
+        one, other = renamed_field(old, name, renames), getattr(new, name)
+        if plain(one, renames, texts=True) != plain(other, renames.now, texts=True):
+            return first_difference(one, other, renames)
     return fact.told(old), fact.told(new)
 
 
-def first_difference(old: object, new: object, where: str = "") -> tuple[str, str]:
+def first_difference(old: object, new: object, renames: Renames = SAME_NAMES, where: str = "") -> tuple[str, str]:
     """The first part that differs, with the way to it: `outputs[0].pid.band timer` and `outputs[0].pid.band level`."""
-    for way, one, other in _parts(old, new, where):
-        if plain(one, texts=True) != plain(other, texts=True):
-            return first_difference(one, other, way)
+    for way, one, other in _parts(old, new, renames, where):
+        if plain(one, renames, texts=True) != plain(other, renames.now, texts=True):
+            return first_difference(one, other, renames, way)
     before, after = shown(old), shown(new)
     if before == after:
         before, after = brief(old), brief(new)
     return f"{where} {before}".strip(), f"{where} {after}".strip()
 
 
-def _parts(old: object, new: object, where: str) -> Iterator[tuple[str, object, object]]:
+def _parts(old: object, new: object, renames: Renames, where: str) -> Iterator[tuple[str, object, object]]:
     """The parts of two alike values, each with the way to it."""
     if type(old) is not type(new):
         return
     for name in field_names(old):
         if name not in UNCOMPARED:
-            yield f"{where}.{name}" if where else name, getattr(old, name), getattr(new, name)
+            yield f"{where}.{name}" if where else name, renamed_field(old, name, renames), getattr(new, name)
     if isinstance(old, tuple) and isinstance(new, tuple) and type(old) is tuple and len(old) == len(new):
         deep = where and any(field_names(one) for one in old)
         for place, (one, other) in enumerate(zip(old, new, strict=True)):

@@ -24,7 +24,7 @@ class Pairs(Generic[T]):
 def paired(
     olds: Sequence[T],
     news: Sequence[T],
-    name: Callable[[T], str],
+    name: Callable[[T], Hashable],
     contents: Sequence[Content[T]],
     hint: Content[T] | None = None,
 ) -> Pairs[T]:

@@ -153,7 +153,7 @@ def _reach(old: Seat, new: Seat, renames: Renames) -> Iterator[Placed]:
         for seat in (old, new)
     ]
     if _selection(pages[0], renames) != _selection(pages[1], renames.now):
-        words = first_difference(pages[0], pages[1])
+        words = first_difference(pages[0], pages[1], renames)
         yield Difference(REACH, "page", Effects(B, N), *words), (REACH.id, *words), None
 
 

@@ -166,7 +166,8 @@ class Renames:
 
     def with_paths(self, paths: Mapping[str, str]) -> "Renames":
         """The same with paths."""
-        patterns = {INDEX.sub("[]", old): INDEX.sub("[]", new) for old, new in paths.items() if "[" in old}
+        alike = [(old, new) for old, new in paths.items() if INDEX.findall(old) == INDEX.findall(new) != []]
+        patterns = {INDEX.sub("[]", old): INDEX.sub("[]", new) for old, new in alike}
         return replace(self, paths=paths, patterns=patterns)
 
     @property
@@ -222,13 +223,13 @@ def field_names(value: object) -> tuple[str, ...]:
 
 def plain_field(thing: Any, name: str, renames: Renames = SAME_NAMES, *, texts: bool = False) -> Hashable:  # noqa: ANN401 (as above)
     """One field of a thing as `plain` has it."""
-    value = _renamed(thing, name, renames)
+    value = renamed_field(thing, name, renames)
     if name in UNORDERED.get(type(thing), ()) or (isinstance(thing, OrderCases) and thing.by_code()):
         return frozenset(plain(each, renames, texts=texts) for each in value)
     return plain(value, renames, texts=texts)
 
 
-def _renamed(thing: Any, name: str, renames: Renames) -> Any:  # noqa: ANN401 (as above)
+def renamed_field(thing: Any, name: str, renames: Renames) -> Any:  # noqa: ANN401 (as above)
     """A field of a thing, with what was renamed by its new name."""
     value = getattr(thing, name)
     if name in PATHS.get(type(thing), ()):

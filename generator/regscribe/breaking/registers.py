@@ -160,13 +160,13 @@ class RegisterComparison:
 
     def _renamed(self, site: Site, mine: Register, theirs: Register) -> Found:
         """A rename; of all registers of an array that was renamed one change."""
-        before, after = INDEX.sub("[]", mine.path), INDEX.sub("[]", theirs.path)
+        before, after = mine.path, theirs.path
         cause: Hashable = None
-        if mine.array and theirs.array and mine.array != theirs.array and mine.id == theirs.id:
-            before, after = f"{mine.array}[]", f"{theirs.array}[]"
-            cause = (self.map_id, RENAMED.id, before, after)
-        if before == after:
-            before, after = mine.path, theirs.path
+        if mine.index == theirs.index:  # so is it for the other elements
+            before, after = INDEX.sub("[]", before), INDEX.sub("[]", after)
+            if mine.array != theirs.array and mine.id == theirs.id:
+                before, after = f"{mine.array}[]", f"{theirs.array}[]"
+                cause = (self.map_id, RENAMED.id, before, after)
         return Found(site, Difference(RENAMED, "path", Effects(N, B), before, after), cause)
 
     def _cause(self, difference: Difference, mine: Register, theirs: Register) -> Hashable:
@@ -213,7 +213,7 @@ class RegisterComparison:
                 come = Difference(ADDED, "register", Effects(C, C), "none", _words(register))
                 yield self._with_group(Found(self._site(None, register), come), register)
         for old, new in self.pairs.uncertain:
-            words = f"{old.path} {_words(old)}", f"{new.path} {_words(new)}"
+            words = [f"{one.path} at {spelled(one.base.space, one.address)}" for one in (old, new)]
             yield Found(self._site(old, new), Difference(UNCERTAIN, "register", Effects(C, C), *words))
 
     def _with_group(self, found: Found, register: Register) -> Found:

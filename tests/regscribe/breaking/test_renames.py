@@ -3,6 +3,7 @@
 from typing import Any
 
 from regscribe.breaking.examples import BASE
+from regscribe.breaking.plain import Renames
 
 
 def told(found: Any) -> list[tuple[str, tuple[str, ...], str, str]]:
@@ -108,3 +109,17 @@ def test_registers_that_swap_their_addresses_both_moved(edited: Any) -> None:
         ("RS0701", ("power",), "holding 3", "holding 13"),
         ("RS0701", ("offset",), "holding 13", "holding 3"),
     ]
+
+
+def test_paths_of_the_other_elements_follow_an_array_that_was_renamed_as_a_whole() -> None:
+    renames = Renames().with_paths({"zones[1].low": "areas[1].low", "status.alarm": "status.alert"})
+    assert renames.path("zones[{i}].low") == "areas[{i}].low"
+    assert renames.path("zones[].low") == "areas[].low"
+    assert renames.path("status.alarm") == "status.alert"
+    assert renames.path("zones[1].low.part") == "areas[1].low.part"
+    assert renames.path("zones[1].high") == "zones[1].high"
+
+
+def test_paths_of_the_other_elements_stay_where_one_left_its_array() -> None:
+    renames = Renames().with_paths({"zones[1].low": "first_low"})
+    assert (renames.path("zones[1].low"), renames.path("zones[2].low")) == ("first_low", "zones[2].low")
