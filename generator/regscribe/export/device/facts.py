@@ -363,6 +363,8 @@ TOLD = {
     "sentinel-label": "what a fault word means",
     "write-echo": "whether a write was refused",
     "truth-of-words": "words that are neither 0 nor 1",
+    "label-changed": "characters of a label that the form does not have",
+    "step": "values between two steps",
     "type-unread": "a type that the form has, and the usual program for it does not read",
     "serial-line": "speed and character format of the serial line",
 }

@@ -10,8 +10,8 @@ from importlib.resources import files
 
 from regscribe.export.device import RESOLVED, Carries, Carry, Device, Point, Request, Target, Wire, exported
 from regscribe.export.device.options import DEVICE_OPTIONS
+from regscribe.export.device.reads import planned_reads
 from regscribe.export.node_red.flow import SPACES, Flow, client, debug, decoder, function, read, span_of, tab
-from regscribe.export.node_red.reads import planned_reads
 from regscribe.export.node_red.table import Entry, entry_of, is_readable
 from regscribe.export.node_red.writes import write_entries
 from regscribe.losses import Exported, Grade

@@ -11,7 +11,10 @@ from regscribe_runtime.planning.plan import Block, Terms, blocks
 
 
 def planned_reads(device: Device) -> list[tuple[Block, list[Point]]]:
-    """Return each request with the registers that it reads, and tell the loss of those that none can read."""
+    """Return each request with the registers that it reads, and tell the loss of those that none can read.
+
+    What is write only is in none of them.
+    """
     terms = _terms(device)
     by_span: dict[RegisterSpan, list[Point]] = {}
     for point, span in _readable(device, terms):
@@ -30,6 +33,8 @@ def _terms(device: Device) -> Terms:
 
 def _readable(device: Device, terms: Terms) -> Iterator[tuple[Point, RegisterSpan]]:
     for point in device.points:
+        if not point.register.access.readable:
+            continue
         span = span_of(point.view, point.address)
         if terms.ground.stretch(span) is None:
             done = "left out: no request may cover all that must be read with it"

@@ -1,0 +1,36 @@
+"""The units that openHAB knows, by its dimensions (concepts/units-of-measurement of its documentation)."""
+
+PREFIXED = {
+    "ElectricPotential": ("µV", "mV", "V", "kV"),
+    "ElectricCurrent": ("µA", "mA", "A", "kA"),
+    "ElectricResistance": ("mΩ", "Ω", "kΩ", "MΩ"),
+    "ElectricCapacitance": ("pF", "nF", "µF", "mF", "F"),
+    "ElectricInductance": ("µH", "mH", "H"),
+    "ElectricCharge": ("mAh", "Ah", "kAh"),
+    "ElectricConductivity": ("S/m",),
+    "Power": ("mW", "W", "kW", "MW", "GW", "VA", "kVA", "MVA", "var", "kvar", "Mvar"),
+    "Energy": ("J", "kJ", "MJ", "GJ", "Wh", "kWh", "MWh", "GWh", "VAh", "kVAh", "MVAh", "varh", "kvarh", "Mvarh"),
+    "Temperature": ("°C", "°F", "K"),
+    "Time": ("ms", "s", "min", "h", "d"),
+    "Frequency": ("Hz", "kHz", "MHz", "rpm"),
+    "Length": ("µm", "mm", "cm", "m", "km", "in", "ft"),
+    "Area": ("m²",),
+    "Volume": ("ml", "l", "m³", "gal"),
+    "Angle": ("°", "rad"),
+    "Speed": ("mm/s", "m/s", "km/h"),
+    "Acceleration": ("m/s²",),
+    "VolumetricFlowRate": ("l/min", "m³/s", "m³/min", "m³/h", "gal/min"),
+    "Mass": ("mg", "g", "kg"),
+    "Density": ("kg/m³", "g/m³"),
+    "Force": ("N", "kN"),
+    "Pressure": ("Pa", "hPa", "kPa", "MPa", "mbar", "bar", "psi", "mmHg", "inHg"),
+    "Illuminance": ("lx", "klx"),
+    "LuminousFlux": ("lm",),
+    "LuminousIntensity": ("cd",),
+    "Intensity": ("W/m²", "kW/m²"),
+    "Dimensionless": ("%", "ppm"),
+    "DataAmount": ("B", "kB", "MB"),
+    "DataTransferRate": ("bit/s", "kbit/s", "Mbit/s"),
+}
+DIMENSIONS = {symbol: dimension for dimension, symbols in PREFIXED.items() for symbol in symbols}
+"""The dimension of each unit that openHAB spells as maps do."""
