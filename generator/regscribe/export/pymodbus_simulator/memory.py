@@ -20,7 +20,7 @@ from regscribe.reference import (
 )
 from regscribe_runtime.values.kinds import OCTETS
 
-SPACES = (Space.COIL, Space.DISCRETE, Space.INPUT, Space.HOLDING)
+SPACES: tuple[Space, ...] = (Space.COIL, Space.DISCRETE, Space.INPUT, Space.HOLDING)
 """In the order in which their blocks follow each other."""
 
 CELL_BITS = 16
