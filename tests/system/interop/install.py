@@ -73,6 +73,8 @@ CONSUMERS = (
     Consumer("home-assistant", pip=("homeassistant==2024.3.3", "pymodbus==3.6.6")),
     Consumer("esphome", pip=("esphome==2026.6.5",)),
     Consumer("zabbix-agent2", programs={"zabbix_agent2": "zabbix-agent2", "node": "nodejs"}),
+    Consumer("pymodbus-simulator", pip=("pymodbus==3.16.1", "aiohttp")),
+    Consumer("promtool", programs={"promtool": "prometheus"}),
     Consumer("asyncua", pip=("asyncua==2.1.0",)),
     Consumer("node-red", npm=("node-red@4.1.15", "node-red-contrib-modbus@5.23.3"), programs=NODE),
     Consumer("node-wot", npm=("@node-wot/core@0.8.16", "@node-wot/binding-modbus@0.8.16"), programs=NODE),

@@ -366,6 +366,8 @@ TOLD = {
     "label-changed": "characters of a label that the form does not have",
     "step": "values between two steps",
     "type-unread": "a type that the form has, and the usual program for it does not read",
+    "unit-unmapped": "a unit that the form does not know",
+    "unit-base": "a unit whose values are exported in another one",
     "serial-line": "speed and character format of the serial line",
 }
 """What exporters tell by themselves, by code: what a form makes of a fact, which no fact alone decides."""
