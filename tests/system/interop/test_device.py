@@ -50,6 +50,6 @@ def agree(held: Held, read: object) -> bool:
     return read is held.value or said == held.value
 
 
-@pytest.mark.parametrize("form", ["csv", "json", "collectd", "telegraf", "home-assistant", "esphome"])
+@pytest.mark.parametrize("form", ["csv", "json", "collectd", "telegraf", "home-assistant", "esphome", "wiren-board"])
 def test_the_device_can_be_exported(stage: Stage, form: str) -> None:
     assert stage.text(form)

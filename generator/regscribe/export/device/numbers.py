@@ -23,3 +23,8 @@ def decimal(number: Fraction) -> str:
 def is_exact(number: Fraction) -> bool:
     """Whether `decimal` says it exactly."""
     return "/" not in show(number)
+
+
+def json_number(number: Fraction) -> int | float:
+    """The number for JSON that is read into doubles: a whole one as it is, else the nearest double."""
+    return number.numerator if number.denominator == 1 else float(number)
