@@ -67,10 +67,11 @@ def _fixed(entry: Entry, fixes: Sequence[Row]) -> Entry:
 def _set(entry: Entry, row: Row) -> Entry:
     """The entry with the keys that a person sets, without the remarks that these settle."""
     before: Mapping[str, Any] = entry.keys if entry.keys is not None else {"name": entry.name}
-    merged = {**before, **row.set}
+    merged: dict[str, Any] = {**before, **row.set}
     if set(row.set) & SETTLES["scale"] and "decimals" not in row.set and merged.get("decimals") == "not_stated":
         del merged["decimals"]
-    keys = {key: value for key, value in merged.items() if value is not None}
+    first = {key: merged[key] for key in ("at", "name") if key in merged}
+    keys: Mapping[str, Any] = {key: value for key, value in (first | merged).items() if value is not None}
     said = Remark(CODE, f"{', '.join(row.set)} as you say{f' ({row.reason})' if row.reason else ''}", lossy=False)
     left_out = entry.keys is None
     remarks = tuple(one for one in entry.remarks if not (left_out or _settled(one, row.set)))

@@ -4,7 +4,7 @@ import re
 import sys
 import tempfile
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from pathlib import Path
 
 from regscribe import plugins, source
@@ -16,6 +16,7 @@ from regscribe.draft.mapping import ImportMapping, begun, load
 from regscribe.draft.mapping import stored as store_mapping
 from regscribe.draft.merge import Change, Note, merge, stored
 from regscribe.draft.settle import settle
+from regscribe.draft.text import Written
 from regscribe.files import FileError, save
 from regscribe.model import Diagnostic, Severity, Span
 from regscribe.model.identifiers import snake
@@ -28,6 +29,11 @@ MOST_BYTES = 64 * 1024 * 1024
 """Far beyond any list of registers."""
 
 BYTE_ORDER_MARK = "\ufeff"
+
+IMPORTED = "<import>"
+"""What the text of a map is called that is no file yet."""
+
+NOTHING = Written("", {})
 
 
 @dataclass(slots=True)
@@ -43,7 +49,7 @@ class Run:
     found: tuple[Diagnostic, ...] = ()
     notes: tuple[Note, ...] = ()
     text: str | None = None
-    imported: str = ""
+    written: Written = NOTHING
 
     def read(self, data: bytes) -> None:
         """Read the source and follow the mapping. Raises PluginError and OptionError."""
@@ -71,7 +77,7 @@ class Run:
         self.found = (*self.draft.findings, *_errors(checked))
         if self.draft.failed or len(self.found) > len(self.draft.findings):
             return
-        self.imported = written.text
+        self.written = written
         self.text = self._merged(out) if merging and out is not None else written.text
 
     def _merged(self, out: Path) -> str | None:
@@ -87,10 +93,15 @@ class Run:
         if ours is None:
             self.found = (*self.found, *wrong)
             return None
-        merged = merge(self.mapping.imported, _document(self.imported, self.name), ours)
+        merged = merge(self.mapping.imported, _document(self.written.text), ours)
         checked = _errors(_check_at(merged.text, out))
-        self.notes, self.found = merged.notes, (*self.found, *checked)
+        self.notes, self.found = tuple(map(self._placed, merged.notes)), (*self.found, *checked)
         return None if checked else _like(merged.text, ours.text, raw, out)
+
+    def _placed(self, note: Note) -> Note:
+        """The note with the place in the source, where it is of a row that the map does not have yet."""
+        owner = self.written.owners.get(note.place.line)
+        return replace(note, place=owner.place) if note.place.file == IMPORTED and owner is not None else note
 
     def save_map(self, out: Path) -> None:
         """Write the map. Raises FileError."""
@@ -105,7 +116,7 @@ class Run:
         """Write the mapping, with what was imported if the map was written. Raises FileError."""
         own = self.mapping.own or begun(self.form, self.name, {**self.options, **self.draft.settings})
         if imported:
-            store_mapping(path, own, stored(_document(self.imported, self.name)))
+            store_mapping(path, own, stored(_document(self.written.text)))
         else:
             save(path, own)
 
@@ -194,8 +205,8 @@ def _check_at(text: str, out: Path) -> Sequence[Diagnostic]:
         return compile_map(Path(file.name)).diagnostics
 
 
-def _document(text: str, name: str) -> Document:
-    document, wrong = source.parse(text, name=name)
+def _document(text: str) -> Document:
+    document, wrong = source.parse(text, name=IMPORTED)
     assert document is not None, wrong  # noqa: S101 - it passed `check`
     return document
 

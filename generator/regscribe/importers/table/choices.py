@@ -21,6 +21,7 @@ OPTIONS = (
     Option("area", "the part of each page to read, in points: LEFT,TOP,RIGHT,BOTTOM", metavar="AREA"),
     Option("header", "the number of the row that names the columns; none: no row does", metavar="ROW"),
     Option("columns", 'what columns say, at=Register,type="Data type",unit=-', metavar="ROLE=HEADING", several=True),
+    Option("cell", "corrects one cell, NAME / HEADING = TEXT or B7 = TEXT", metavar="CELL=TEXT", several=True),
     Option("encoding", "how the characters of a text are encoded (cp1250, gbk, ..)", metavar="NAME"),
     Option("delimiter", "what separates cells: comma, semicolon, tab, bar, blanks", metavar="WORD"),
     Option("base", f"how addresses count: {', '.join(base_words())}, several joined by commas", metavar="WORDS"),
@@ -49,6 +50,7 @@ class Choices:
     area: tuple[float, float, float, float] | None = None
     header: str = ""
     columns: str = ""
+    corrections: tuple[str, ...] = ()
     encoding: str = ""
     delimiter: str = ""
     base: str = ""
@@ -72,6 +74,7 @@ def choices(options: Mapping[str, str]) -> Choices:
         area=_area(texts.get("area", "")),
         header=_header(texts.get("header", "")),
         columns=texts.get("columns", ""),
+        corrections=tuple(filter(None, texts.get("cell", "").split("\n"))),
         encoding=texts.get("encoding", ""),
         delimiter=texts.get("delimiter", ""),
         base=_base(texts.get("base", "")),

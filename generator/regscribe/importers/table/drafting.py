@@ -11,6 +11,7 @@ from regscribe.importers.table.cells.detect import detect
 from regscribe.importers.table.choices import Choices
 from regscribe.importers.table.column_words import NEXT, asked, pairs_of
 from regscribe.importers.table.columns import Column, recognise, texts_below
+from regscribe.importers.table.corrections import corrected
 from regscribe.importers.table.grid import Grid, TableError
 from regscribe.importers.table.header import Header, at_row, find, without
 from regscribe.importers.table.headings import AT, IGNORE, fold
@@ -51,7 +52,8 @@ def draft_of(grids: Sequence[Grid], choices: Choices, name: str) -> Draft:
         )
         raise TableError(message)
     drafts = [_drafted(page, choices) for page in pages]
-    passed = [grid for grid in grids if all(page.grid is not grid for page in pages)]
+    read = {page.grid.rows[0].where for page in pages}
+    passed = [grid for grid in grids if grid.rows and grid.rows[0].where not in read]
     return Draft(
         entries=tuple(entry for draft in drafts for entry in draft.entries),
         head=_head(drafts, name),
@@ -67,6 +69,7 @@ def draft_of(grids: Sequence[Grid], choices: Choices, name: str) -> Draft:
 def _settings(drafts: Sequence[Draft], pages: Sequence[Page], choices: Choices) -> dict[str, str]:
     """The options by which the next list is read as this one was; of several sheets those alone that count for all."""
     found = {"sheet": "\n".join(choices.sheets or [page.title for page in pages])}
+    found["cell"] = "\n".join(choices.corrections)
     if len(pages) == 1:
         found |= {**drafts[0].settings, "columns": "\n".join(_pairs(pages[0]))}
     return {name: text for name, text in found.items() if text}
@@ -89,8 +92,7 @@ def _head(drafts: Sequence[Draft], name: str) -> dict[str, Any]:
 
 def _passed_over(grids: Sequence[Grid]) -> Iterator[str]:
     for grid in grids:
-        if grid.rows:
-            yield f"{grid.rows[0].where.rpartition(', ')[0]} has no header of a list of registers and was passed over"
+        yield f"{grid.rows[0].where.rpartition(', ')[0]} has no header of a list of registers and was passed over"
 
 
 def _page(grid: Grid, choices: Choices) -> Page | None:
@@ -105,6 +107,8 @@ def _page(grid: Grid, choices: Choices) -> Page | None:
     if header is None:
         return None
     columns = recognise(grid, header, asked(choices.columns, header.headings, first=grid.rows[0].first))
+    if choices.corrections:
+        grid = corrected(grid, header, columns, choices.corrections)
     return Page(grid, header, columns)
 
 
@@ -159,6 +163,8 @@ def _unread(page: Page) -> Iterator[Diagnostic]:
 
 def _stated(page: Page, layout: Layout, whole: Whole, made: Sequence[Made], choices: Choices) -> Iterator[str]:
     where = f"sheet {page.title}: " if page.title else ""
+    if choices.corrections:
+        yield from page.grid.stated[-len(choices.corrections) :]
     yield from (f"{where}{text}" for text in whole.stated)
     if assumed := sum(one.order_assumed for one in made):
         rows = "1 register" if assumed == 1 else f"{assumed} registers"

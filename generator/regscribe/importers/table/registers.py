@@ -1,5 +1,6 @@
 """One row to one register, or to the reasons why it is left out."""
 
+import re
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from fractions import Fraction
@@ -9,6 +10,7 @@ from regscribe.draft import Entry
 from regscribe.importers.table.cells import Unclear
 from regscribe.importers.table.cells.addresses import Address
 from regscribe.importers.table.cells.detect import Row as Detected
+from regscribe.importers.table.cells.range_columns import VALUE
 from regscribe.importers.table.cells.ranges import Limits, Ranged, Settled, settle_ranges
 from regscribe.importers.table.cells.scales import PLAIN
 from regscribe.importers.table.cells.types import TypeCell
@@ -31,6 +33,9 @@ from regscribe.model import Space
 from regscribe_runtime.values.octets import KINDS
 
 GROUP = "Registers"
+
+POINT = re.compile(r"(?<![0-9])(?<![0-9][.,])[0-9]+[.,][0-9]{1,2}(?![0-9])(?![.,][0-9])")
+"""A number with one or two digits behind its point; with three it may be one of thousands."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -62,6 +67,10 @@ def made_of(items: Sequence[Item], whole: Whole, choices: Choices, grid: Grid) -
     halves = [_half(item, index, whole, choices, grid) for index, item in enumerate(items)]
     ranged = [_ranged(half, half.limits) for half in halves] + [_ranged(half, half.default) for half in halves]
     column = settle_ranges(ranged, counts=choices.ranges)
+    pointed = sum(map(_has_point, ranged, [*halves, *halves]))
+    if pointed and not choices.ranges and not column.evidence:
+        said = f"ranges and defaults count values, as {pointed} of scaled rows have a decimal point"
+        column = replace(settle_ranges(ranged, counts=VALUE), evidence=said)
     ranges, defaults = column.cells[: len(halves)], column.cells[len(halves) :]
     made = [_made(*parts) for parts in zip(halves, ranges, defaults, strict=True)]
     return made, column.evidence
@@ -74,6 +83,14 @@ def _ranged(half: Half, found: Limits | Fraction | Unclear | None) -> Ranged | N
         return None
     limits = Limits(found, found) if isinstance(found, Fraction) else found
     return Ranged(limits, making.wire, making.scale)
+
+
+def _has_point(ranged: Ranged | None, half: Half) -> bool:
+    """Whether a scaled row prints its range or default with a decimal point, as what is stored never has."""
+    if ranged is None or ranged.scale == PLAIN or half.making is None:
+        return False
+    item = half.making.item
+    return any(POINT.search(item[role]) for role in ("range", "min", "max", "default"))
 
 
 def _half(item: Item, index: int, whole: Whole, choices: Choices, grid: Grid) -> Half:
@@ -144,11 +161,11 @@ def _made(half: Half, ranged: Settled | Unclear | None, defaulted: Settled | Unc
     making = half.making
     if making is None:
         return Made(half.entry)
-    lost = Unclear("it cannot be read while the scale is unclear") if making.scale is None else None
-    if isinstance(half.limits, Unclear):
+    if making.scale is None:
+        _lose_scaled(making, half)
+    elif isinstance(half.limits, Unclear):
         ranged = half.limits
-    limits = add_limits(making, (half.limits and lost) or ranged)
-    default = add_default(making, (lost if half.default is not None else None) or defaulted)
+    limits, default = add_limits(making, ranged), add_default(making, defaulted)
     add_texts(making)
     codes = making.keys.get("enum")
     detected = Detected(
@@ -167,6 +184,13 @@ def _made(half: Half, ranged: Settled | Unclear | None, defaulted: Settled | Unc
     )
     entry = replace(half.entry, keys=making.keys, remarks=tuple(making.remarks))
     return Made(entry, detected, half.bits, making.declared, making.at, making.space, making.order_assumed)
+
+
+def _lose_scaled(making: Making, half: Half) -> None:
+    """Say which numbers are not taken because they count in the unit of an unclear scale."""
+    for role, found in (("range", half.limits), ("default", half.default)):
+        if found is not None:
+            making.lose(f"{role}-unscaled", f"the {role} is left out, as it counts in the unit of an unclear scale")
 
 
 def _bit(item: Item) -> tuple[int, int] | None:

@@ -27,7 +27,9 @@ def _findings(grid: Grid, said: Structure, sheet: str) -> Iterator[Diagnostic]:
     shown = {row.line for row in grid.rows}
     if hidden := [str(number) for number in said.hidden_rows if number in shown]:
         message = f"sheet {sheet}: {_some(hidden, 'row')} are hidden in the sheet and are read like all others"
-        yield _finding(grid, "hidden-rows", message, "leave out with --range or --skip what does not count")
+        yield _finding(
+            grid, "hidden-rows", message, "what does not count is left out by --range, or under `skip` in a mapping"
+        )
     if said.hidden_columns:
         message = f"sheet {sheet}: {_some(said.hidden_columns, 'column')} are hidden in the sheet and are read too"
         yield _finding(grid, "hidden-columns", message)

@@ -168,6 +168,30 @@ def test_columns_that_are_not_there_are_refused_with_the_nearest(columns: str, s
     assert said in refusal("Address,Name,Type,Access,My gain\n0,Speed,U16,R,1\n", columns=columns)
 
 
+def test_a_cell_is_corrected_by_the_name_of_its_row_or_by_its_place_and_all_else_follows() -> None:
+    text = "Address,Name,Type,Access,Unit\n0,Fan  speed,in16,R,rpm\n1,Flow,U16,R,l/h\n"
+    found = draft(text, cell="Fan speed / type = S16\nE3=V")
+    assert keys(found) == [
+        {"at": 0, "name": "Fan speed", "access": "r", "type": "int16", "unit": "rpm"},
+        {"at": 1, "name": "Flow", "access": "r", "unit": "V"},
+    ]
+    assert "cell Type of `Fan speed` is read as `S16`, as you said" in found.stated
+    assert found.settings["cell"] == "Fan speed / type = S16\nE3=V"
+
+
+@pytest.mark.parametrize(
+    ("cell", "said"),
+    [
+        ("Fan / Type = S16", "--cell Fan / Type = S16: no row is called `Fan`; did you mean `Fan speed`?"),
+        ("Fan speed / Typ = S16", "--cell Fan speed / Typ = S16: the table has no column `Typ`; did you mean `Type`?"),
+        ("Z99=1", "--cell Z99=1: the table has no such cell"),
+        ("nothing", "--cell nothing: write NAME / HEADING = TEXT, or B7 = TEXT"),
+    ],
+)
+def test_a_cell_that_is_not_there_is_refused_with_the_nearest(cell: str, said: str) -> None:
+    assert said in refusal("Address,Name,Type,Access\n0,Fan speed,in16,R\n", cell=cell)
+
+
 def test_a_table_without_a_header_is_refused_with_its_first_rows() -> None:
     said = refusal("0,Speed,U16\n1,Flow,U16\n")
     assert "no row looks like the header of a list of registers" in said
@@ -227,7 +251,7 @@ def test_an_unclear_scale_leaves_the_number_raw_and_takes_all_that_counts_in_its
     assert keys(found)[0] == {"at": 0, "name": "Level", "access": "r", "decimals": "not_stated", "unit": "V"}
     remark = found.entries[0].remarks[0]
     assert (remark.code, remark.todo, "`see note`" in remark.message) == ("scale-unclear", True, True)
-    assert codes(found)[0] == ["scale-unclear", "range-unclear", "default-unclear"]
+    assert codes(found)[0] == ["scale-unclear", "range-unscaled", "default-unscaled"]
 
 
 def test_scales_and_defaults_are_exact_to_the_last_digit() -> None:
@@ -242,6 +266,19 @@ def test_scales_and_defaults_are_exact_to_the_last_digit() -> None:
 @pytest.mark.parametrize(("counts", "limits"), [("value", "0..10"), ("stored", "0..1")])
 def test_what_a_range_counts_can_be_said(counts: str, limits: str) -> None:
     assert only(SCALED + "0,Level,U16,R,0.1,V,0..10,\n", ranges=counts)["range"] == limits
+
+
+def test_ranges_that_are_printed_with_a_decimal_point_count_values_and_so_do_those_beside_them() -> None:
+    found = draft(
+        SCALED + "0,Level,U16,R/W,0.1,V,20.0..60.0,48\n1,Flow,U16,R/W,0.1,V,0..10,\n2,Odd,U16,R/W,1,V,0..7,7\n"
+    )
+    assert [row and (row["range"], row.get("default")) for row in keys(found)] == [
+        ("20..60", 48),
+        ("0..10", None),
+        ("0..7", 7),
+    ]
+    said = "ranges and defaults count values, as 2 of scaled rows have a decimal point"
+    assert said in found.stated
 
 
 def test_an_unclear_type_order_or_address_leaves_the_row_out_with_the_reason() -> None:
