@@ -1,6 +1,5 @@
 """One row to one register, or to the reasons why it is left out."""
 
-import re
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from fractions import Fraction
@@ -10,7 +9,6 @@ from regscribe.draft import Entry
 from regscribe.importers.table.cells import Unclear
 from regscribe.importers.table.cells.addresses import Address
 from regscribe.importers.table.cells.detect import Row as Detected
-from regscribe.importers.table.cells.range_columns import VALUE
 from regscribe.importers.table.cells.ranges import Limits, Ranged, Settled, settle_ranges
 from regscribe.importers.table.cells.scales import PLAIN
 from regscribe.importers.table.cells.types import TypeCell
@@ -33,9 +31,6 @@ from regscribe.model import Space
 from regscribe_runtime.values.octets import KINDS
 
 GROUP = "Registers"
-
-POINT = re.compile(r"(?<![0-9])(?<![0-9][.,])[0-9]+[.,][0-9]{1,2}(?![0-9])(?![.,][0-9])")
-"""A number with one or two digits behind its point; with three it may be one of thousands."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -67,10 +62,6 @@ def made_of(items: Sequence[Item], whole: Whole, choices: Choices, grid: Grid) -
     halves = [_half(item, index, whole, choices, grid) for index, item in enumerate(items)]
     ranged = [_ranged(half, half.limits) for half in halves] + [_ranged(half, half.default) for half in halves]
     column = settle_ranges(ranged, counts=choices.ranges)
-    pointed = sum(map(_has_point, ranged, [*halves, *halves]))
-    if pointed and not choices.ranges and not column.evidence:
-        said = f"ranges and defaults count values, as {pointed} of scaled rows have a decimal point"
-        column = replace(settle_ranges(ranged, counts=VALUE), evidence=said)
     ranges, defaults = column.cells[: len(halves)], column.cells[len(halves) :]
     made = [_made(*parts) for parts in zip(halves, ranges, defaults, strict=True)]
     return made, column.evidence
@@ -83,14 +74,6 @@ def _ranged(half: Half, found: Limits | Fraction | Unclear | None) -> Ranged | N
         return None
     limits = Limits(found, found) if isinstance(found, Fraction) else found
     return Ranged(limits, making.wire, making.scale)
-
-
-def _has_point(ranged: Ranged | None, half: Half) -> bool:
-    """Whether a scaled row prints its range or default with a decimal point, as what is stored never has."""
-    if ranged is None or ranged.scale == PLAIN or half.making is None:
-        return False
-    item = half.making.item
-    return any(POINT.search(item[role]) for role in ("range", "min", "max", "default"))
 
 
 def _half(item: Item, index: int, whole: Whole, choices: Choices, grid: Grid) -> Half:
