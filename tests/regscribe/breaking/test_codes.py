@@ -80,3 +80,13 @@ def test_special_values(old: str, new: str, rule: str, effects: Effects, bench: 
 )
 def test_faults(old: str, new: str, rules: list[str], bench: Any) -> None:
     assert sorted(one[0] for one in told(bench, f"access: r, {old}", f"access: r, {new}")) == sorted(rules)
+
+
+def test_another_label_of_the_same_name_is_a_text(bench: Any) -> None:
+    found = told(bench, "enum: {0: low}", "enum: {0: {label: lowest, id: LOW}}")
+    assert found == [("RS0773", "label of code 0", Effects(N, N))]
+
+
+def test_what_else_differs_of_a_renamed_code_is_told(bench: Any) -> None:
+    found = told(bench, "enum: {0: low}", "enum: {0: {label: least, description: a third}}")
+    assert sorted(one[:2] for one in found) == [("RS0719", "name of code 0"), ("RS0773", "description of code 0")]

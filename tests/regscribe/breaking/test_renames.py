@@ -123,3 +123,13 @@ def test_paths_of_the_other_elements_follow_an_array_that_was_renamed_as_a_whole
 def test_paths_of_the_other_elements_stay_where_one_left_its_array() -> None:
     renames = Renames().with_paths({"zones[1].low": "first_low"})
     assert (renames.path("zones[1].low"), renames.path("zones[2].low")) == ("first_low", "zones[2].low")
+
+
+def test_what_else_differs_of_a_renamed_register_is_told(edited: Any) -> None:
+    found = edited("name: Offset, type: int16", "name: Shift, description: It is added., type: int16")
+    assert [(one.rule.id, one.what) for one in found] == [("RS0742", "path"), ("RS0773", "description")]
+
+
+def test_another_name_of_the_same_id_is_a_text(edited: Any) -> None:
+    found = edited("name: Offset", "id: offset, name: Offset of the sensor")
+    assert told(found) == [("RS0773", ("offset",), '"Offset"', '"Offset of the sensor"')]
