@@ -63,11 +63,14 @@ def plain_number(value: Fraction) -> Any:  # noqa: ANN401 - a number of YAML, or
     return near if exact(near) == value else f"{value.numerator}/{value.denominator}"
 
 
+_DECIMALS = {Fraction(10) ** -digits: digits for digits in range(-MOST_DECIMALS, MOST_DECIMALS + 1)}
+"""Digits behind the point by the factor that they are."""
+
+
 def _factor_keys(factor: Fraction) -> dict[str, Any]:
     if factor == 1:
         return {}
-    digits = next((n for n in range(-MOST_DECIMALS, MOST_DECIMALS + 1) if Fraction(10) ** -n == factor), None)
-    if digits is not None:
+    if (digits := _DECIMALS.get(factor)) is not None:
         return {"decimals": digits}
     if abs(factor.numerator) == 1 and "/" in show(factor):
         return {"divide": factor.denominator * factor.numerator}

@@ -6,6 +6,7 @@ All are exact. What a comma is may hang on the other cells of the column: `decim
 import re
 from collections.abc import Iterable
 from fractions import Fraction
+from functools import lru_cache
 
 from regscribe.importers.table.cells import Unclear, quoted
 
@@ -18,7 +19,7 @@ MOST_TEXT = 400
 """Characters of a cell that is not codes; patterns never see more."""
 
 MINUS_SIGNS = str.maketrans({"\u2212": "-", "\u2013": "-", "\u2010": "-", "\u2011": "-", "\ufe63": "-", "\uff0d": "-"})
-_BLANKS = "\u00a0\u2007\u2008\u2009\u202f"
+_PLAIN = MINUS_SIGNS | str.maketrans(dict.fromkeys("\u00a0\u2007\u2008\u2009\u202f", " "))
 _SOFT = re.compile("[\u00ad\u200b\u2060\ufeff]")
 
 HEX = r"(?:0[xX][0-9A-Fa-f]{1,16}|(?:[0-9][0-9A-Fa-f]{0,15}|[0-9A-F]{2,16})[hH]\b)"
@@ -37,9 +38,14 @@ def clean(text: str) -> str:
 
     What is longer than a cell of any kind but codes is cut, and ends in a mark by which nothing takes it for whole.
     """
-    plain = _SOFT.sub("", text[: 8 * MOST_TEXT]).translate(MINUS_SIGNS).translate(dict.fromkeys(map(ord, _BLANKS), " "))
-    plain = " ".join(plain.split())
+    plain = _cleaned(text[: 8 * MOST_TEXT])
     return plain if len(plain) <= MOST_TEXT and len(text) <= 8 * MOST_TEXT else f"{plain[:MOST_TEXT]}\u2026\u2026"
+
+
+@lru_cache(1 << 12)
+def _cleaned(text: str) -> str:
+    """The same few texts stand in most cells of a column."""
+    return " ".join(_SOFT.sub("", text).translate(_PLAIN).split())
 
 
 def number(text: str, *, comma: bool | None = None) -> Fraction | Unclear:
