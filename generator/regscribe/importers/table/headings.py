@@ -50,7 +50,7 @@ _WORDS: Mapping[str, str] = {  # each list from the plainest word to the one tha
     "direccion | direccion modbus | direccion de registro | direccion registro | adres | modbusadres | "
     "modbus adres | registeradres | adress | modbusadress | modbus adress | registeradress | adres rejestru | "
     "rejestr | adres modbus | numer rejestru | 地址 | 寄存器地址 | 寄存器 | 起始地址 | 通讯地址 | modbus地址 | "
-    "协议地址 | modbus id | ref | reference | id",
+    "协议地址 | coil | coil address | coil number | discrete input | input address | modbus id | ref | reference | id",
     "name": "name | parameter | parameter name | variable | variable name | register name | data name | "
     "signal | signal name | point | point name | data point | datapoint | title | label | tag | tag name | "
     "item | object | parameters | quantity | measurement | content | contents | register description | "

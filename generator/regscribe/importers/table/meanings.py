@@ -78,18 +78,32 @@ def _all(codes: Codes, limits: Limits | Unclear | None) -> bool:
 
 def add_codes(making: Making, codes: Codes) -> None:
     """Set enum or flags; labels that say the same get ids that differ."""
+    if codes.flags and codes.ranges:
+        making.set({"fields": OneLine(_parts(codes))})
+        if codes.none:
+            making.lose("codes-none", f"`{codes.none[:40]}` stands for no bit, which parts of a word cannot say")
+        return
     labels: dict[Any, Any] = _unlike({code: clean(label) for code, label in codes.labels.items()})
     if codes.flags and codes.none:
         labels["none"] = clean(codes.none)
     if codes.other and not codes.flags:
         labels["other"] = clean(codes.other)
     making.set({"flags" if codes.flags else "enum": OneLine(labels)})
-    if codes.none and not codes.flags:
-        making.lose("codes-none", f"`{codes.none[:40]}` stands for no bit, which an enum cannot say")
     for low, high, label in codes.ranges:
         making.lose(
             "codes-range", f"the codes {low}..{high} (`{label[:40]}`) are not in the map: an enum names single ones"
         )
+
+
+def _parts(codes: Codes) -> dict[str, Any]:
+    """The parts of a word of which some have several bits."""
+    every = [(bit, bit, label) for bit, label in codes.labels.items()] + list(codes.ranges)
+    found: dict[str, Any] = {}
+    for low, high, label in sorted(every):
+        own = label_id(label) or f"bit_{low}"
+        place = {"bit": low} if low == high else {"bits": f"{low}..{high}"}
+        found[own if own not in found else f"{own}_{low}"] = OneLine(**place, label=clean(label))
+    return found
 
 
 def _unlike(labels: Mapping[int, str]) -> dict[int, Any]:

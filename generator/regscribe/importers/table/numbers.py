@@ -6,6 +6,7 @@ from regscribe.draft.numbers import plain, unscaled
 from regscribe.importers.table.cells import Unclear
 from regscribe.importers.table.cells.orders import order_in
 from regscribe.importers.table.cells.ranges import Limits, Settled, parse_number
+from regscribe.importers.table.cells.scale_words import scale_in
 from regscribe.importers.table.cells.scales import PLAIN, Scale, parse_offset
 from regscribe.importers.table.cells.types import TypeCell, parse_order
 from regscribe.importers.table.cells.units import UnitCell, may_scale, parse_unit
@@ -37,6 +38,8 @@ def add_type(making: Making, whole: Whole, index: int, choices: Choices, *, code
         making.type = found = TypeCell(
             type=WireType.INT16 if found.signed else WireType.UINT16, words=1, kind=found.kind
         )
+    if found.type is WireType.BIT:  # a word that is 0 or 1
+        making.type = found = TypeCell(type=WireType.UINT16, words=1, kind="boolean")
     if found.type is None:
         _default_type(making, found, choices, coded=coded)
     _check_type(making)
@@ -126,28 +129,35 @@ def add_scale(making: Making, whole: Whole, index: int) -> None:
 
 
 def _scale(making: Making, whole: Whole, index: int) -> Scale | Unclear:
-    """The one scale of what scale, decimals, unit and offset say; Unclear where two of them differ."""
-    said: list[Scale] = []
-    for cell in (whole.scales.cells[index], whole.decimals.cells[index]):
-        if isinstance(cell, Unclear):
-            return cell
-        if cell is not None:
-            said.append(cell)
-    unit = parse_unit(making.item["unit"])
-    if isinstance(unit, UnitCell) and unit.factor is not None:
-        said.append(Scale(unit.factor))
-    if isinstance(unit, Unclear) and may_scale(making.item["unit"]):
-        return unit
-    if len({(one.multiply, one.add) for one in said}) > 1:
-        texts = ", ".join(f"`{making.item[role][:30]}`" for role in ("scale", "decimals", "unit") if making.item[role])
+    """The one scale of what the cells of a row say; Unclear where two of them differ."""
+    item = making.item
+    said = _scales(making, whole, index)
+    if unclear := next((one for one in said if isinstance(one, Unclear)), None):
+        return unclear
+    known = [one for one in said if isinstance(one, Scale)]
+    if len({(one.multiply, one.add) for one in known}) > 1:
+        texts = ", ".join(f"`{item[role][:30]}`" for role in ("scale", "decimals", "unit") if item[role])
         return Unclear(f"{texts} say different scales")
-    scale = said[0] if said else PLAIN
-    offset = parse_offset(making.item["offset"], comma=whole.comma)
+    scale = known[0] if known else PLAIN
+    offset = parse_offset(item["offset"], comma=whole.comma)
     if isinstance(offset, Unclear):
         return offset
     if offset and scale.add and scale.add != offset:
-        return Unclear(f"offset `{making.item['offset'][:30]}` and scale `{making.item['scale'][:30]}` differ")
+        return Unclear(f"offset `{item['offset'][:30]}` and scale `{item['scale'][:30]}` differ")
     return Scale(scale.multiply, scale.add or offset or Fraction(0), scale.unit)
+
+
+def _scales(making: Making, whole: Whole, index: int) -> list[Scale | Unclear]:
+    """What the columns of scales, of decimals and of units say; only if none does, what the description says."""
+    text = making.item["unit"]
+    unit = parse_unit(text)
+    in_unit = Scale(unit.factor) if isinstance(unit, UnitCell) and unit.factor is not None else None
+    said = [whole.scales.cells[index], whole.decimals.cells[index], in_unit]
+    if isinstance(unit, Unclear) and may_scale(text):
+        said.append(unit)
+    if all(one is None for one in said) and not making.wire.is_float:
+        said.append(scale_in(making.item["description"]))
+    return [one for one in said if one is not None]
 
 
 def add_unit(making: Making) -> None:

@@ -172,3 +172,35 @@ def test_equal_limits_in_many_rows_are_no_range_and_their_default_is_none(import
     assert found.value("a", 215) == Fraction(215, 10)
     assert found.text.count("range:") == found.text.count("default:") == 1
     assert "{at: 7006, name: C, access: rw, type: int8, range: 0..15, default: 9}" in found.text
+
+
+METER_WITH_REMARKS = """\
+Address,Name,Type,Unit,Access,Description
+0,Setpoint,S16,°C (x0.1),RW,
+1,Pressure,U16,bar,R,1 = 0.01 bar
+2,Flow,U16,m3/h,R,Value is scaled by factor 100
+3,Level,U16,%,R,level of tank 10
+4,Power,U16,W*10,R,
+5,Ready,BOOL,,R,
+6,Status,Bitmap,,R,"bit 0: pump, bit 1: valve, bits 4-7: stage"
+"""
+
+
+def test_a_scale_in_a_remark_is_read_alone_and_doubted_among_other_words(imported: Import) -> None:
+    found = imported("table", METER_WITH_REMARKS)
+    assert found.value("setpoint", 215) == Fraction(215, 10)
+    assert found.value("pressure", 215) == Fraction(215, 100)
+    assert found.codes("Flow") == found.codes("Power") == ["scale-unclear"]
+    assert found.codes("Level") == []
+
+
+def test_a_boolean_in_a_register_and_parts_of_a_bitmap(imported: Import) -> None:
+    found = imported("table", METER_WITH_REMARKS)
+    assert found.value("ready", 1) == 1
+    assert found.bits("status") == {"pump": (0, 0), "valve": (1, 1), "stage": (4, 7)}
+
+
+def test_coils_and_discrete_inputs_by_their_numbers(imported: Import) -> None:
+    found = imported("table", "Coil,Description,R/W\n00001,Pump,R/W\n00002,Valve,R/W\n10001,Door,R\n")
+    assert (found.register("valve").at, found.register("valve").base.space) == (1, Space.COIL)
+    assert found.register("door").base.space is Space.DISCRETE

@@ -147,7 +147,7 @@ def test_columns_are_fixed_by_heading_letter_or_number_and_roles_can_be_left_to_
         "name": "Speed",
         "access": "r",
     }
-    assert only(text, columns='scale="My gain"\n-=Unit', scale="divide")["decimals"] == -1
+    assert only(text, columns='scale="My gain"\n-=Unit', scale="divide")["multiply"] == 10
 
 
 @pytest.mark.parametrize(

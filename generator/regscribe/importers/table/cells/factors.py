@@ -6,10 +6,9 @@ from enum import StrEnum
 from fractions import Fraction
 from typing import Any
 
-from regscribe.model import exact, show
+from regscribe.draft.numbers import MOST_DECIMALS, scaling
 
-MOST_DECIMALS = 18
-"""As the language has it."""
+__all__ = ["MOST_DECIMALS", "PLAIN", "Scale", "Way"]
 
 
 class Way(StrEnum):
@@ -34,14 +33,8 @@ class Scale:
 
     @property
     def keys(self) -> Mapping[str, Any]:
-        """The keys of a register that say it: `decimals` for powers of ten, else `multiply` or `divide`; and `add`.
-
-        What `add` adds would be divided by `decimals` as well, so beside it a power of ten is multiplied by.
-        """
-        if not self.add:
-            return _factor_keys(self.multiply)
-        factor = {} if self.multiply == 1 else {"multiply": plain_number(self.multiply)}
-        return {**factor, "add": plain_number(self.add)}
+        """The keys of a register that say it."""
+        return scaling(self.multiply, self.add)
 
     def of(self, stored: Fraction) -> Fraction:
         """The value of a stored number."""
@@ -53,25 +46,3 @@ class Scale:
 
 
 PLAIN = Scale()
-
-
-def plain_number(value: Fraction) -> Any:  # noqa: ANN401 - a number of YAML, or the text of a fraction
-    """A number as YAML has it, so that it reads back exactly; a text `1/3` where no decimal is exact."""
-    if value.denominator == 1:
-        return value.numerator
-    near = float(value)
-    return near if exact(near) == value else f"{value.numerator}/{value.denominator}"
-
-
-_DECIMALS = {Fraction(10) ** -digits: digits for digits in range(-MOST_DECIMALS, MOST_DECIMALS + 1)}
-"""Digits behind the point by the factor that they are."""
-
-
-def _factor_keys(factor: Fraction) -> dict[str, Any]:
-    if factor == 1:
-        return {}
-    if (digits := _DECIMALS.get(factor)) is not None:
-        return {"decimals": digits}
-    if abs(factor.numerator) == 1 and "/" in show(factor):
-        return {"divide": factor.denominator * factor.numerator}
-    return {"multiply": plain_number(factor)}

@@ -7,7 +7,7 @@ from fractions import Fraction
 from typing import NamedTuple
 
 from regscribe.importers.table.cells import Unclear, quoted
-from regscribe.importers.table.cells.factors import PLAIN, Scale, Way, plain_number
+from regscribe.importers.table.cells.factors import PLAIN, Scale, Way
 from regscribe.importers.table.cells.numbers import decimal_comma
 from regscribe.importers.table.cells.scale_cells import bare_number, is_product, parse_offset, parse_scale
 from regscribe.model import WireType, show
@@ -21,7 +21,6 @@ __all__ = [
     "parse_offset",
     "parse_scale",
     "parse_scales",
-    "plain_number",
 ]
 
 MOST_PLACES = 9

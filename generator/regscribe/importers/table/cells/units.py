@@ -50,6 +50,12 @@ _FACTOR = re.compile(
     r"[x*\u00d7]?\s*(?P<n>[+-]?(?:[0-9]+(?:[.,][0-9]+)?|[.,][0-9]+)(?:/[0-9]+)?)\s*[x*\u00d7]?\s*(?P<unit>[^0-9\s=:].*)",
     re.IGNORECASE,
 )
+_BEHIND = re.compile(
+    r"(?P<unit>[^0-9\s(\[][^(\[]*?)\s*[(\[]\s*"
+    r"(?:[x*\u00d7]?\s*(?P<times>0?[.,][0-9]+)|/\s*(?P<over>10+))\s*[)\]]",
+    re.IGNORECASE,
+)
+"""A factor in brackets behind a unit: `A (x0.1)`, `V (/10)`."""
 _POWER = re.compile(r"10\^(?P<n>[+-]?[0-9]{1,2})\s*[x*\u00d7]?\s*(?P<unit>[^0-9\s].*)")
 _QUALIFIER = re.compile(
     r"\s*[(\[]?\b(?:rms|r\.m\.s\.|eff|avg|peak|abs|rel|ac|dc|a\.c\.|d\.c\.)\b\.?[)\]]?", re.IGNORECASE
@@ -86,9 +92,9 @@ def parse_unit(text: str) -> UnitCell | Unclear | None:
 
 
 def may_scale(text: str) -> bool:
-    """Whether an unclear unit may hold a scale (`0.1?`), so that the number hangs on it."""
+    """Whether an unclear unit may hold a scale (`0.1?`, `V*10`), so that the number hangs on it."""
     plain = clean(text)
-    return bool(re.match(r"[x*\u00d7+-]?\s*[.,]?[0-9]", plain)) and not re.match(r"[0-9]+\s*[=:]", plain)
+    return bool(_STRAY_DIGIT.search(plain)) and not re.match(r"[0-9]+\s*[=:]", plain)
 
 
 def _with_factor(plain: str, text: str) -> UnitCell | Unclear | None:
@@ -96,6 +102,9 @@ def _with_factor(plain: str, text: str) -> UnitCell | Unclear | None:
     factor: Fraction | Unclear
     if power := _POWER.fullmatch(plain):
         factor, rest = Fraction(10) ** int(power["n"]), power["unit"]
+    elif found := _BEHIND.fullmatch(plain):
+        factor = Fraction(1, int(found["over"])) if found["over"] else number(found["times"])
+        rest = found["unit"]
     elif found := _FACTOR.fullmatch(plain):
         factor, rest = _fraction(found["n"]), found["unit"]
     else:

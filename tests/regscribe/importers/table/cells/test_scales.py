@@ -1,5 +1,6 @@
 """Scales of single cells, and what the bare numbers of a column do."""
 
+from decimal import Decimal
 from fractions import Fraction
 from typing import Any
 
@@ -8,6 +9,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from regscribe.importers.table.cells import Unclear
+from regscribe.importers.table.cells.scale_words import scale_in
 from regscribe.importers.table.cells.scales import PLAIN, Hint, Scale, Way, parse_offset, parse_scale, parse_scales
 from regscribe.model import WireType, show
 
@@ -104,15 +106,14 @@ def test_the_name_of_a_register_as_scale_is_unclear_and_named() -> None:
     [
         (PLAIN, {}),
         (TENTH, {"decimals": 1}),
-        (Scale(Fraction(100)), {"decimals": -2}),
-        (Scale(Fraction(1, 2)), {"multiply": 0.5}),
-        (Scale(Fraction(1, 3)), {"divide": 3}),
-        (Scale(Fraction(-1, 3)), {"divide": -3}),
+        (Scale(Fraction(100)), {"multiply": 100}),
+        (Scale(Fraction(1, 2)), {"multiply": Decimal("0.5")}),
+        (Scale(Fraction(1, 3)), {"multiply": "1/3"}),
         (Scale(Fraction(2, 3)), {"multiply": "2/3"}),
-        (Scale(Fraction(-1, 10)), {"multiply": -0.1}),
-        (Scale(Fraction(1, 10), Fraction(-40)), {"multiply": 0.1, "add": -40}),
+        (Scale(Fraction(-1, 10)), {"multiply": Decimal("-0.1")}),
+        (Scale(Fraction(1, 10), Fraction(-40)), {"multiply": Decimal("0.1"), "add": -40}),
         (Scale(Fraction(1, 3), Fraction(-40)), {"multiply": "1/3", "add": -40}),
-        (Scale(add=Fraction(1, 10)), {"add": 0.1}),
+        (Scale(add=Fraction(1, 10)), {"add": Decimal("0.1")}),
     ],
 )
 def test_the_keys_say_the_scale_exactly(scale: Scale, keys: dict[str, Any]) -> None:
@@ -176,6 +177,32 @@ def test_what_the_user_says_wins() -> None:
 
 def test_a_cell_that_says_itself_what_it_does_is_not_bound_by_its_column() -> None:
     assert parse_scales(["10", "x0.1", "/100"], "Divisor").cells == (TENTH, TENTH, Scale(Fraction(1, 100)))
+
+
+@pytest.mark.parametrize(
+    "text",
+    [
+        "scale 10",
+        "Value scaled by 0.1",
+        "resolution: 0.01 bar",
+        "in 0.1 V steps",
+        "1 = 0.1",
+        "x10",
+        "tenths of a volt",
+        "one decimal",
+        "temperature (x0.1)",
+        "see note (/10)",
+    ],
+)
+def test_a_remark_that_speaks_of_a_scale_is_told(text: str) -> None:
+    assert isinstance(scale_in(text), Scale | Unclear)
+
+
+@pytest.mark.parametrize(
+    "text", ["", "level of tank 10", "phase 1/3", "1 = on, 0 = off", "2 x pump", "10", "9600 baud"]
+)
+def test_other_remarks_say_nothing_of_a_scale(text: str) -> None:
+    assert scale_in(text) is None
 
 
 def test_an_offset_is_a_number() -> None:

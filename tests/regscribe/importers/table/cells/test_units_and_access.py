@@ -47,6 +47,9 @@ def test_a_spelling_of_a_unit(text: str, symbol: str) -> None:
         ("10^-1 A", "A", "1/10"),
         ("0.1 s", "s", "1/10"),
         ("x0.1 A", "A", "1/10"),
+        ("A (x0.1)", "A", "1/10"),
+        ("°C [0,1]", "°C", "1/10"),
+        ("V (/100)", "V", "1/100"),
     ],
 )
 def test_a_factor_before_a_unit_is_a_scale(text: str, symbol: str, factor: str) -> None:
@@ -77,7 +80,8 @@ def test_what_is_no_unit_for_sure_is_unclear(text: str, said: str) -> None:
 
 
 def test_an_unclear_unit_with_a_number_may_hold_the_scale() -> None:
-    assert [may_scale(text) for text in ("0.1?", "01.c", "-0.1A", "x10", "Mw", "0=Open;1=Closed", "enum")] == [
+    assert [may_scale(text) for text in ("0.1?", "01.c", "-0.1A", "x10", "V*10", "Mw", "0=Open;1=Closed", "enum")] == [
+        True,
         True,
         True,
         True,
