@@ -1,4 +1,4 @@
-"""The tutorial is true: its blocks are carried out in their order, and what it shows is what comes out."""
+"""The tutorial and the page on imports are true: their blocks are carried out, and what they show is what comes out."""
 
 import os
 import re
@@ -18,9 +18,11 @@ import pytest
 from regscribe.cli.app import run
 
 ROOT = Path(__file__).parents[2]
-PAGE = (ROOT / "docs" / "tutorial.md").read_text(encoding="utf-8")
+PAGES = {name: (ROOT / "docs" / f"{name}.md").read_text(encoding="utf-8") for name in ("tutorial", "import")}
+END = re.compile(r"^>>> \w+\.close\(\)$", re.MULTILINE)
 BLOCK = re.compile(r"^```([^\n]+)\n(.*?)^```$", re.DOTALL | re.MULTILINE)
 PORT = "5020"
+WRONG = (AssertionError, OSError, ValueError, subprocess.SubprocessError)
 COMMAND = "from regscribe.cli import main; main()"
 DOCTEST = """
 import doctest, sys
@@ -70,6 +72,8 @@ class Player:
                 self._serve(text)
             case Block("pycon", "", text):
                 self._python(text)
+            case Block("python", "", text):
+                subprocess.run([sys.executable, "-c", text], cwd=self.folder, check=True)  # noqa: S603 - as below
             case _:
                 pytest.fail(f"nobody knows how to carry out {block}")
 
@@ -95,7 +99,8 @@ class Player:
         else:
             done = subprocess.run([name, *arguments], cwd=self.folder, capture_output=True, text=True, check=True)  # noqa: S603 - the page is ours
             printed = done.stdout
-        assert re.fullmatch(".*".join(map(re.escape, shown.split("…"))), printed), f"{command}\n{printed}"
+        pattern = ".*".join(map(re.escape, shown.split("…")))
+        assert re.fullmatch(pattern, printed, re.DOTALL), f"{command}\n{printed}"
 
     def _serve(self, text: str) -> None:
         with socket.socket() as free:
@@ -110,7 +115,7 @@ class Player:
     def _python(self, text: str) -> None:
         # all that was typed so far, in a process of its own: the module that is imported is the one just generated
         self.python.append(text.replace(PORT, self.port))
-        if ">>> oven.close()" not in text:
+        if not END.search(text):
             return
         done = subprocess.run(  # noqa: S603 - as above
             [sys.executable, "-c", DOCTEST],
@@ -153,22 +158,27 @@ def player(folder: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.Capture
         found.stop()
 
 
-def test_every_block_of_the_tutorial_can_be_carried_out_and_shows_what_comes(
-    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+@pytest.mark.parametrize("page", PAGES)
+def test_every_block_of_a_page_can_be_carried_out_and_shows_what_comes(
+    page: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
 ) -> None:
+    found = blocks(PAGES[page])
     with player(tmp_path, monkeypatch, capsys) as play:
-        play.play(blocks(PAGE))
-    assert len(blocks(PAGE)) == PAGE.count("\n```") / 2
-    assert {block.language for block in blocks(PAGE)} == {"yaml", "diff", "console", "pycon"}
+        play.play(found)
+    assert len(found) == len(re.findall(r"^```\S", PAGES[page], re.MULTILINE))
+    assert {block.language for block in found} >= {"diff", "console", "pycon"}
 
 
-@pytest.mark.parametrize("number", range(len(blocks(PAGE))))
+@pytest.mark.parametrize(
+    ("page", "number"),
+    [(page, number) for page, text in PAGES.items() for number in range(len(blocks(text)))],
+)
 def test_a_block_that_is_changed_is_noticed(
-    number: int, tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+    page: str, number: int, tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
 ) -> None:
-    played = blocks(PAGE)
+    played = blocks(PAGES[page])
     changed = played[number]._replace(text=_changed(played[number]))
-    with player(tmp_path, monkeypatch, capsys) as play, pytest.raises((AssertionError, OSError, ValueError)):
+    with player(tmp_path, monkeypatch, capsys) as play, pytest.raises(WRONG):
         play.play([*played[:number], changed, *played[number + 1 :]])
 
 
@@ -178,7 +188,8 @@ def _changed(block: Block) -> str:
     return block.text.replace(line, re.sub(r"\d", lambda digit: str((int(digit[0]) + 1) % 10), line), 1)
 
 
-def test_the_links_of_the_tutorial_lead_somewhere() -> None:
-    links = re.findall(r"\]\(([^)#:]+)\)", PAGE)
+@pytest.mark.parametrize("page", PAGES)
+def test_the_links_of_a_page_lead_somewhere(page: str) -> None:
+    links = re.findall(r"\]\(([^)#:]+)\)", PAGES[page])
     assert [link for link in links if not (ROOT / "docs" / link).exists()] == []
     assert links
