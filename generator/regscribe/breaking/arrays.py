@@ -5,7 +5,7 @@ from typing import NamedTuple
 
 from regscribe.breaking.change import Difference, Effects
 from regscribe.breaking.facts import B, C, Fact, H, N, compared, judged, text
-from regscribe.breaking.plain import Renames
+from regscribe.breaking.renames import Renames
 from regscribe.breaking.rules import ARRAY
 from regscribe.model import Array, Model, Register, Rule
 

@@ -6,7 +6,8 @@ from typing import NamedTuple
 from regscribe.breaking.change import Difference, Effects
 from regscribe.breaking.facts import EXACT, B, C, Fact, H, N, compared, judged, text
 from regscribe.breaking.pairs import Pairs, paired
-from regscribe.breaking.plain import SAME_NAMES, Renames, plain
+from regscribe.breaking.plain import plain
+from regscribe.breaking.renames import SAME_NAMES, Renames
 from regscribe.breaking.rules import (
     CODE_ADDED,
     CODE_MEANING,

@@ -5,7 +5,9 @@ from dataclasses import dataclass, field
 from typing import Any, Generic, TypeVar
 
 from regscribe.breaking.change import TEXT_ONLY, Difference, Effect, Effects
-from regscribe.breaking.plain import SAME_NAMES, UNCOMPARED, Renames, field_names, plain, plain_field, renamed_field
+from regscribe.breaking.field_roles import UNCOMPARED
+from regscribe.breaking.plain import field_names, plain, plain_field, renamed_field
+from regscribe.breaking.renames import SAME_NAMES, Renames
 from regscribe.breaking.rules import TEXT
 from regscribe.emit.words import Wording, condition_words, one_line
 from regscribe.model import Condition, Rule, show

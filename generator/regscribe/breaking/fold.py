@@ -3,19 +3,19 @@
 from collections.abc import Hashable, Iterable, Sequence
 
 from regscribe.breaking.change import Change, Difference, Found
-from regscribe.breaking.plain import INDEX
+from regscribe.breaking.renames import INDEX
 from regscribe.breaking.rules import MAP_RENAMED, MODEL_RENAMED, REMOVED, RENAMED
 from regscribe.emit.words import span_words
 from regscribe.model import Span
 
-FOLLOWING = "unique ids, metrics and topics of exports follow the path, so histories under the old name end"
+FOLLOWING = "unique ids of Home Assistant, metrics and items of exports follow it, so histories end"
 """What follows from another path, wherever values are kept."""
 
 ADVICE = {
     RENAMED: "{old} is {new} in drivers, on the command line and in backups; " + FOLLOWING,
     REMOVED: "drivers and exports lose it, and histories under its name end",
     MODEL_RENAMED: "links, configurations and backups that name {old} must name {new}",
-    MAP_RENAMED: "programs import another module, and name maps and models by the new id",
+    MAP_RENAMED: "programs import another module; unique ids of Home Assistant begin with the id, so histories end",
 }
 
 

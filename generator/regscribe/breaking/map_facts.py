@@ -121,7 +121,7 @@ MODEL_ELSEWHERE = {
     "name": "compare",
     "class_name": "names",
     "members": "arrays",
-    "registers": "registers",
+    "registers": "register_pairs",
     "groups": "things",
     "commands": "things",
     "computed": "things",

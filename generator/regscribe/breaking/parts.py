@@ -7,7 +7,7 @@ from regscribe.breaking.codes import enum_differences, sentinel_differences
 from regscribe.breaking.facts import B, C, Fact, H, N, compared, judged, text
 from regscribe.breaking.limits import part_limits
 from regscribe.breaking.pairs import Pairs, paired
-from regscribe.breaking.plain import Renames
+from regscribe.breaking.renames import Renames
 from regscribe.breaking.rules import (
     BITS,
     EXISTENCE,

@@ -6,7 +6,8 @@ from typing import NamedTuple
 
 from regscribe.breaking.change import TEXT_ONLY, Difference, Effects
 from regscribe.breaking.facts import EXACT, B, C, Fact, H, N, compared, first_difference, judged, shown
-from regscribe.breaking.plain import Renames, plain
+from regscribe.breaking.plain import plain
+from regscribe.breaking.renames import Renames
 from regscribe.breaking.rules import ADDRESS, ALIAS, ORDER, REACH, TEXT, TYPE, VIEW, VIEW_SET
 from regscribe.emit.words import order_words
 from regscribe.model import Model, Page, Register, Rule, Space, View

@@ -3,11 +3,12 @@
 from collections.abc import Hashable, Iterator, Mapping, Sequence
 from typing import Any, NamedTuple, Protocol, TypeVar
 
-from regscribe.breaking.change import TEXT_ONLY, Difference, Effects
+from regscribe.breaking.change import TEXT_ONLY, Difference, Effects, Found, Site
 from regscribe.breaking.facts import EXACT, B, C, Fact, H, N, compared, judged, text
 from regscribe.breaking.map_facts import GIVEN_FACTS
 from regscribe.breaking.pairs import Pairs, paired
-from regscribe.breaking.plain import Renames, plain_field
+from regscribe.breaking.plain import plain_field
+from regscribe.breaking.renames import Renames
 from regscribe.breaking.rules import (
     COMMAND,
     COMPUTED,
@@ -163,6 +164,17 @@ def thing_differences(sort: str, pairs: Pairs[T], renames: Renames) -> Iterator[
         needed = isinstance(new, Given) and new.default is None
         rule = GIVEN_ADDED if isinstance(new, Given) else THING_ADDED
         yield Apart(new.id, Difference(rule, sort, Effects(N, B if needed else C), "none", new.id), _span(new))
+
+
+def found_at(apart: Apart, site: Site) -> Found:
+    """A difference of a thing with an id, as one of the map or of a model."""
+    here = site._replace(subject=apart.id, span=apart.span or site.span, was=apart.was or site.was, other=apart.other)
+    return Found(here, apart.difference)
+
+
+def new_ids(pairs: Pairs[T]) -> dict[str, str]:
+    """What was renamed."""
+    return {old.id: new.id for old, new in pairs.both if old.id != new.id}
 
 
 def _span(thing: object) -> Span | None:

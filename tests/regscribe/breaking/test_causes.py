@@ -164,3 +164,9 @@ def test_a_scale_rule_that_changed_is_one_change_in_all_groups(bench: Any) -> No
     old = old.replace("name: Target}", "name: Target, scale: tenths}")
     (found,) = bench.compared(old, old.replace("[{decimals: 1}]", "[{decimals: 2}]")).changes
     assert (found.rule.id, found.subjects) == ("RS0711", ("offset", "segments[].target"))
+
+
+def test_a_condition_that_only_commands_use_is_told_too(bench: Any) -> None:
+    old = BASE.replace("when: hot, ", "").replace("words: [85]}]", "words: [85]}], when: hot")
+    (found,) = bench.compared(old, old.replace("hot: {mode: heat}", "hot: {mode: cool}")).changes
+    assert (found.rule.id, found.subjects, found.registers) == ("RS0732", ("hot",), ())

@@ -7,7 +7,8 @@ import pytest
 
 from regscribe.breaking import arrays, codes, map_facts, parts, places, register_facts, things
 from regscribe.breaking.facts import Fact
-from regscribe.breaking.plain import IDS, PATHS, TEXTS, UNORDERED, field_names
+from regscribe.breaking.field_roles import IDS, PATHS, TEXTS, UNORDERED
+from regscribe.breaking.plain import field_names
 from regscribe.model import (
     Array,
     BitField,

@@ -51,6 +51,7 @@ models: {M1: {from: M1}, M2: {from: M2, description: with a second loop}}
         ("description: with a second loop", "description: with  a second loop"),
         ("commands:\n", "commands: # what it does\n"),
         ("flags: {0: running, 1: alarm}", "flags: {1: alarm, 0: running}"),
+        ("{product: [total, 2]}", "{product: [2, total]}"),
         ("flags: {0: running, 1: alarm}", "flags: {0: {label: running}, 1: alarm}"),
         (
             "    each: {access: rw, type: int16}\n    registers:\n      - {at: 40",
@@ -127,3 +128,14 @@ def test_a_page_may_come_before_others(edited: Any) -> None:
     )
     found = edited("  - id: paged\n", f"{first}  - id: paged\n")
     assert {one.rule.id for one in found} == {"RS0740", "RS0751"}
+
+
+def test_codes_of_a_condition_may_stand_in_another_order(bench: Any) -> None:
+    old = BASE.replace("hot: {mode: heat}", "hot: {mode: [stop, cool]}")
+    assert bench.compared(old, old.replace("[stop, cool]", "[cool, stop]")).changes == ()
+
+
+def test_a_register_that_counts_twice_is_not_one_that_counts_once(bench: Any) -> None:
+    old = BASE.replace("{product: [total, 2]}", "{sum: [total, total]}")
+    found = bench.compared(old, BASE.replace("{product: [total, 2]}", "{sum: [total, offset]}")).changes
+    assert [(one.rule.id, one.before, one.after) for one in found] == [("RS0756", "total + total", "total + offset")]

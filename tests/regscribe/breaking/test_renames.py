@@ -3,7 +3,7 @@
 from typing import Any
 
 from regscribe.breaking.examples import BASE
-from regscribe.breaking.plain import Renames
+from regscribe.breaking.renames import Renames
 
 
 def told(found: Any) -> list[tuple[str, tuple[str, ...], str, str]]:

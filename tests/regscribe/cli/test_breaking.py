@@ -137,7 +137,7 @@ def test_markdown_is_a_section_of_a_changelog(cli: Cli, other: Callable[..., Pat
 
 def test_a_rename_says_what_follows_the_path(cli: Cli, other: Callable[..., Path]) -> None:
     out = cli("breaking", "--against", other("name: Mode", "name: State")).out
-    assert "`state` is `mode` in drivers, on the command line and in backups; unique ids, metrics and topics" in out
+    assert "`state` is `mode` in drivers, on the command line and in backups; unique ids of Home Assistant" in out
 
 
 def test_a_folder_is_compared_by_the_ids_of_maps(cli: Cli, oven: Path) -> None:
