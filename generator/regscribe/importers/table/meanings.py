@@ -83,7 +83,7 @@ def add_codes(making: Making, codes: Codes) -> None:
         if codes.none:
             making.lose("codes-none", f"`{codes.none[:40]}` stands for no bit, which parts of a word cannot say")
         return
-    labels: dict[Any, Any] = _unlike({code: clean(label) for code, label in codes.labels.items()})
+    labels: dict[Any, Any] = unlike({code: clean(label) for code, label in codes.labels.items()})
     if codes.flags and codes.none:
         labels["none"] = clean(codes.none)
     if codes.other and not codes.flags:
@@ -106,7 +106,7 @@ def _parts(codes: Codes) -> dict[str, Any]:
     return found
 
 
-def _unlike(labels: Mapping[int, str]) -> dict[int, Any]:
+def unlike(labels: Mapping[int, str]) -> dict[int, Any]:
     """Labels, each with an id of its own where its text alone gives none, or one that another has."""
     ids: set[str] = set()
     found: dict[int, Any] = {}

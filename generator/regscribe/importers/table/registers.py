@@ -26,6 +26,7 @@ from regscribe.importers.table.numbers import (
     add_unit,
     printed_default,
 )
+from regscribe.importers.table.specials import add_special, is_number
 from regscribe.importers.table.whole import Whole
 from regscribe.model import Space
 from regscribe_runtime.values.octets import KINDS
@@ -120,6 +121,8 @@ def _grown(making: Making, address: Address, index: int, whole: Whole, choices: 
     making.set({} if making.space is Space.HOLDING else {"space": str(making.space)})
     add_access(making, whole, index, choices)
     codes = codes_of(making, whole, index)
+    special = codes if codes is not None and is_number(making, whole, index, codes) else None
+    codes = None if special else codes
     add_type(making, whole, index, choices, coded=codes is not None or bits is not None)
     _check_count(making, address)
     limits: Limits | Unclear | None = None
@@ -130,6 +133,8 @@ def _grown(making: Making, address: Address, index: int, whole: Whole, choices: 
         add_scale(making, whole, index)  # before the unit, which a scale may say (`1 = 0.1 A`)
         add_unit(making)
         limits = whole.limits[index] if item["range"] or item["min"] or item["max"] else None
+        if special:
+            add_special(making, special)
         if making.type.kind == "flags":
             making.tell("bits-unnamed", f"type `{item['type'][:30]}`: no cell says what its bits mean")
         if making.type.kind == "boolean":
@@ -150,7 +155,7 @@ def _made(half: Half, ranged: Settled | Unclear | None, defaulted: Settled | Unc
         ranged = half.limits
     limits, default = add_limits(making, ranged), add_default(making, defaulted)
     add_texts(making)
-    codes = making.keys.get("enum")
+    codes = making.keys.get("enum") or making.keys.get("special")
     detected = Detected(
         name=half.entry.name,
         place=half.entry.place,
@@ -163,7 +168,7 @@ def _made(half: Half, ranged: Settled | Unclear | None, defaulted: Settled | Unc
         limits=limits,
         default=default,
         scale=making.scale or PLAIN,
-        codes=frozenset(codes) if isinstance(codes, dict) else frozenset(),
+        codes=frozenset(map(Fraction, codes)) if isinstance(codes, dict) else frozenset(),
     )
     entry = replace(half.entry, keys=making.keys, remarks=tuple(making.remarks))
     return Made(entry, detected, half.bits, making.declared, making.at, making.space, making.order_assumed)

@@ -18,8 +18,8 @@ RULE = "table"
 class Row:
     """What is known of one row after its cells were read.
 
-    `words` are the addresses that it takes; limits and default are in the unit of the value. `codes` are those of its
-    enum, which are allowed beside the range.
+    `words` are the addresses that it takes; limits and default are in the unit of the value. `codes` are values with
+    names, which are allowed beside the range.
     """
 
     name: str
@@ -33,7 +33,7 @@ class Row:
     limits: Limits | None = None
     default: Fraction | None = None
     scale: Scale = PLAIN
-    codes: frozenset[int] = field(default_factory=frozenset)
+    codes: frozenset[Fraction] = field(default_factory=frozenset)
 
     @property
     def end(self) -> int:

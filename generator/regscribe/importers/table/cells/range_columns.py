@@ -89,21 +89,17 @@ def _settled(row: Ranged, rule: str) -> Settled | Unclear:
     if row.scale == PLAIN or value == row.limits:
         return Settled(row.limits)
     if as_stored and as_value and not rule:
-        return Unclear(
-            f"the range {_shown(row.limits)} may count values, or stored numbers, which are {_shown(value)} in values"
-        )
+        return Unclear(f"{_what(row.limits)} may count values, or stored numbers: then it is {_shown(value)}")
     if (rule if as_stored and as_value else STORED if as_stored else VALUE) == VALUE:
         return Settled(row.limits)
-    return Settled(value, f"the range {_shown(row.limits)} counts stored numbers, {_shown(value)} in values")
+    return Settled(value, f"{_what(row.limits)} counts stored numbers, {_shown(value)} in values")
 
 
 def _no_fit(row: Ranged) -> Unclear:
     if row.wire.is_octets:
         return Unclear(f"a {row.wire} has no range such as {_shown(row.limits)}")
     low, high = row.wire.ends
-    return Unclear(
-        f"the range {_shown(row.limits)} does not fit the type {row.wire}, which goes from {show(low)} to {show(high)}"
-    )
+    return Unclear(f"{_what(row.limits)} does not fit the type {row.wire}, which goes from {show(low)} to {show(high)}")
 
 
 def _scaled(limits: Limits, scale: Scale) -> Limits:
@@ -114,5 +110,11 @@ def _scaled(limits: Limits, scale: Scale) -> Limits:
     return replace(limits, low=low, high=high, listed=listed)
 
 
+def _what(limits: Limits) -> str:
+    return f"{'the number' if limits.low == limits.high else 'the range'} {_shown(limits)}"
+
+
 def _shown(limits: Limits) -> str:
+    if limits.low is not None and limits.low == limits.high:
+        return show(limits.low)
     return f"{'' if limits.low is None else show(limits.low)}..{'' if limits.high is None else show(limits.high)}"

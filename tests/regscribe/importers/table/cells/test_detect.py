@@ -73,7 +73,7 @@ def test_a_default_outside_the_range_is_told_unless_it_is_a_code() -> None:
     limits = Limits(Fraction(1), Fraction(10))
     (found,) = messages(row(0, limits=limits, default=Fraction(0)))
     assert "the default 0 of `r0` at 0 is outside its range 1..10" in found
-    assert messages(row(0, limits=limits, default=Fraction(0), codes=frozenset({0}))) == []
+    assert messages(row(0, limits=limits, default=Fraction(0), codes=frozenset({Fraction(0)}))) == []
 
 
 def test_a_bit_above_15_is_told() -> None:
