@@ -135,7 +135,8 @@ def verdict_words(changes: Sequence[Change], level: Level) -> str:
 
 def markdown(changes: Sequence[Change], level: Level) -> str:
     """A section for a changelog: the changes by their effect, each with its rule."""
-    lines = [f"## {verdict_of(changes, level).word.capitalize()} change of the maps", ""]
+    verdict = verdict_of(changes, level)
+    lines = [f"## {verdict.word.capitalize() if verdict else 'No'} change of the maps", ""]
     for effect, heading in HEADINGS.items():
         own = [change for change in changes if change.effects.at(level) is effect]
         if own:
