@@ -141,8 +141,6 @@ def markdown(changes: Sequence[Change], level: Level) -> str:
         own = [change for change in changes if change.effects.at(level) is effect]
         if own:
             lines += [f"### {heading}", "", *map(_item, own), ""]
-    if not changes:
-        lines += ["Nothing changed.", ""]
     return "\n".join(lines).rstrip("\n") + "\n"
 
 

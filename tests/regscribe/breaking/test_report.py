@@ -99,7 +99,7 @@ def test_where_it_stood_is_the_other_party_unless_it_stood_there() -> None:
 
 
 def test_a_changelog_without_changes_says_so() -> None:
-    assert markdown([], Level.API) == "## None change of the maps\n\nNothing changed.\n"
+    assert markdown([], Level.API) == "## No change of the maps\n"
 
 
 def test_a_changelog_escapes_what_maps_say() -> None:
