@@ -236,6 +236,14 @@ def test_coils_are_bits_that_are_written_as_coils(one: Callable[..., Any]) -> No
     assert (item["type"], item["channel"]) == ("Switch", "modbus:data:examplea1-1:coil_7:x:switch")
 
 
+def test_a_bit_that_is_a_number_is_a_number(one: Callable[..., Any]) -> None:
+    data, item = one(
+        "space: coil, type: bit, kind: number, multiply: 2", top='protocol: {source: "1", functions: [1, 5, 3]}'
+    )
+    assert (data["readValueType"], item["type"]) == ("bit", "Number")
+    assert item["channel settings"]["gain"] == "2"
+
+
 def test_named_bits_are_register_and_bit(files: Callable[..., Files]) -> None:
     found = files("at: 7, name: X, access: r, type: uint32, flags: {0: run, 31: trip}")
     # the first register has the higher bits

@@ -130,6 +130,13 @@ def test_codes_are_constants_with_titles(said: Callable[..., Json]) -> None:
     assert found["oneOf"] == [{"const": -1, "title": "falling"}, {"const": 0, "title": "steady"}]
 
 
+def test_codes_of_a_fixed_point_are_behind_its_scale(said: Callable[..., Json]) -> None:
+    # 1 in units of 1/256 is 256 on the wire, and the constants are codes: so they say nothing of raw numbers
+    found = said("access: r, type: q8.8, enum: {0: off, 1: on}")
+    assert found["x-scale"]["multiply"] == "0.00390625"
+    assert [one["const"] for one in found["oneOf"]] == [0, 256]
+
+
 def test_fault_words_stand_in_a_term_of_our_own(said: Callable[..., Json]) -> None:
     found = said("access: r, decimals: 1, sentinels: {-32768: broken, 32760..32767: short}")
     assert found["x-faults"] == [

@@ -247,8 +247,8 @@ def _words(wire: Wire) -> str:
 
 def _line(register: Register, view: View, known: Surroundings) -> tuple[Fraction, Fraction]:
     """Return factor and summand that turn the number on the wire into the value of use."""
-    if register.kind not in {Kind.NUMBER, Kind.INTEGER}:
-        return Fraction(1), Fraction(0)
+    if register.kind in {Kind.FLAGS, Kind.FIELDS}:
+        return Fraction(1), Fraction(0)  # a pattern of bits is no number
     line = straight(choose(register.scale, known) if register.scale else IDENTITY, known)
     if line is None:
         message = "no scale is stated for this state of the device"

@@ -13,6 +13,7 @@ function places(bytes, base, size) {
 }
 
 const NUMBERS = {
+  bit: ([bit]) => BigInt(bit),
   uint: whole,
   int: (bytes) => BigInt.asIntN(8 * bytes.length, whole(bytes)),
   bcd: (bytes) => places(bytes, 10n, 4),
@@ -150,10 +151,8 @@ function ofBytes(one, bytes, raw) {
 
 function valueOf(one, data, octets) {
   if (one.bit !== undefined) {
-    if (data[one.bit] === undefined) return { value: null, note: 'not in the answer' }
-    const bit = BigInt(Number(data[one.bit]))
-    if (!one.labels) return { value: bit === 1n }
-    return { value: labelled(one.labels, bit) || `unknown (${bit})`, code: Number(bit) }
+    const bit = data[one.bit]
+    return bit === undefined ? { value: null, note: 'not in the answer' } : ofNumber(one, [Number(bit)])
   }
   const picked = (places) => places.map((place) => octets[place])
   const bytes = picked(one.bytes)

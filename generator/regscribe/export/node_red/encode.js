@@ -16,8 +16,9 @@ function truth(value) {
 }
 
 function memberCode(one, value) {
+  const isCode = typeof value !== 'string' || (/^-?[0-9]{1,40}$/.test(value) && one.labels.every(([, label]) => label !== value))
   const known = () => one.labels.map(([code, label]) => `${label} (${code})`).join(', ')
-  const found = one.labels.filter(([code, label]) => (typeof value === 'string' ? label === value : BigInt(code) === BigInt(value)))
+  const found = one.labels.filter(([code, label]) => (isCode ? Number.isInteger(Number(value)) && BigInt(code) === BigInt(value) : label === value))
   if (found.length > 1) refuse(`${JSON.stringify(value)} are several codes: write one of ${found.map(([code]) => code).join(', ')}`)
   return found.length ? [BigInt(found[0][0]), 1n] : refuse(`${JSON.stringify(value)} is none of ${known()}`)
 }
@@ -96,7 +97,10 @@ function wholeBytes(one, wire) {
 function encoded(one, value, unit) {
   const wire = unscaled(one, value)
   const request = { fc: one.fc, unitid: unit, address: one.address, quantity: one.quantity }
-  if (one.coil) return { ...request, value: one.fc === 5 ? wire[0] !== 0n : [wire[0] !== 0n] }
+  if (one.coil) {
+    const [bit] = wholeBytes(one, wire)
+    return { ...request, value: one.fc === 5 ? bit === 1 : [bit === 1] }
+  }
   const bytes = one.type === 'float' ? floatBytes(one, wire) : wholeBytes(one, wire)
   const broken = fault(one.faults, numberOf(one, one.read.map((place) => bytes[place])))
   if (broken) refuse(`${decimal(wire)} on the wire is how the device reports: ${broken}`)

@@ -57,9 +57,9 @@ def _meaning(point: Point) -> Entry:
     said: Entry = {"kind": str(register.kind)}
     if register.kind is Kind.STRING:
         said |= _text(register.text)
-    elif not wire_type.is_octets and point.wire.space.is_words:
+    elif not wire_type.is_octets:
         said |= {"type": type_of(wire_type)} | _number(point)
-    if point.members:
+    if register.enum:
         labels: dict[int, list[str]] = {}
         for member in point.members:
             labels.setdefault(member.code, []).append(member.label)
@@ -71,6 +71,8 @@ def _meaning(point: Point) -> Entry:
 
 def type_of(wire_type: WireType) -> str:
     """Return how the bytes of a type are read: one of the ways that decode.js knows."""
+    if wire_type is WireType.BIT:
+        return "bit"
     if wire_type in DECIMAL:
         return DECIMAL[wire_type]
     return "float" if wire_type.is_float else "int" if wire_type.minimum < 0 else "uint"

@@ -46,7 +46,8 @@ def _entry(device: Device, point: Point, address: int) -> Entry:
     said = {key: value for key, value in entry_of(point, point.address).items() if key not in {"bit", "raw", "unit"}}
     said |= {"fc": write_functions(device.register_map.protocol, point)[0], "address": address, "quantity": point.words}
     if point.wire.space.is_bits:
-        return said | {"coil": True, "add": "0", "multiply": "1"}
+        ends = {"lowest": "0", "highest": "1", "bits": 1, "bytes": [0]}
+        return said | {"coil": True} | ends | ({"ranges": intervals(point.ranges)} if point.ranges else {})
     return said | _number(device, point)
 
 

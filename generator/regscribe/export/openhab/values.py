@@ -54,7 +54,7 @@ def data_of(point: Point) -> list[Datum]:
     """Return what is read of a register: its value, or each of its named bits."""
     wire, kind = point.wire, point.register.kind
     if wire.space.is_bits:
-        return [Datum(str(point.address), "bit", "number" if point.members else "switch")]
+        return [Datum(str(point.address), "bit", "switch" if kind in SWITCHED else "number")]
     bits = [
         Datum(_bit(point, field.low), "bit", "switch", field.id, field.label)
         for field in point.fields

@@ -35,7 +35,8 @@ def schema_of(device: Device, point: Point, *, writable: bool) -> Schema:
     if point.members:
         labels: dict[int, list[str]] = {}
         for member in point.members:
-            labels.setdefault(member.code, []).append(member.label)
+            raw = (member.code - point.offset) / point.slope
+            labels.setdefault(raw.numerator, []).append(member.label)  # codes are whole numbers on the wire
         said |= _labels({code: " / ".join(dict.fromkeys(several)) for code, several in labels.items()})
     said |= _scale(device, point)
     if kind in NUMBERS and writable and point.register.range:
