@@ -45,14 +45,14 @@ def collected(items: Sequence[Item]) -> tuple[tuple[Entry, ...], tuple[Diagnosti
         if isinstance(item, Entry):
             places.append(item)
             continue
-        own = by_key.get(_key(item))
+        own = by_key.get(_key(item)) or by_key.get(_key(item, always=True))
         if own is None:
             own = by_key[_key(item)] = _Place([])
             places.append(own)
         findings += _put(item, own)
     kept, contrary = _apart([one for one in places if isinstance(one, _Place)])
     taken: Taken = {}
-    named = {id(one): free_id(snake(one.first.name), {"at": one.first.at}, taken) for one in kept if not one.is_word}
+    named = {id(one): _named(one.first, taken) for one in kept if not one.is_word}
     entries = [one if isinstance(one, Entry) else _entry(one, kept, named, contrary.get(id(one))) for one in places]
     found = [diagnostic for _, diagnostic in contrary.values()]
     return tuple(entry for group in entries for entry in (group if isinstance(group, tuple) else (group,))), (
@@ -61,9 +61,13 @@ def collected(items: Sequence[Item]) -> tuple[tuple[Entry, ...], tuple[Diagnosti
     )
 
 
-def _key(point: Point) -> tuple[object, ...]:
-    """Points of one key are one register: bits of the same words, or the same number."""
-    when = repr(point.more.get("when"))
+def _named(point: Point, taken: Taken) -> str:
+    return free_id(str(point.more.get("id") or snake(point.name)), {"at": point.at}, taken)
+
+
+def _key(point: Point, *, always: bool = False) -> tuple[object, ...]:
+    """Points of one key are one register: bits of the same words, or the same number, under the same condition."""
+    when = repr(None if always else point.more.get("when"))
     if point.bits is not None:
         return point.space, point.at, point.length, point.orders, when, "bits"
     return (*point.facts, when)
@@ -150,8 +154,7 @@ def _number(place: _Place, name: str) -> Entry:
     merged = first
     parts = [_row(first, first.remarks)]
     for one in others:
-        clashes = MEANINGS & merged.more.keys()
-        more = {**{key: value for key, value in one.more.items() if key not in MEANINGS or not clashes}, **merged.more}
+        more = {**_besides(one, merged), **merged.more}
         access = "rw" if {merged.access, one.access} != {merged.access} else merged.access
         merged = replace(merged, more=more, access=access, unit=merged.unit or one.unit)
         parts.append(_row(one, (*one.remarks, _again(first, one, more))))
@@ -162,15 +165,27 @@ def _number(place: _Place, name: str) -> Entry:
 def _called(entry: Entry, name: str) -> Entry:
     """The entry with its id, where the name alone does not say it."""
     keys = entry.keys or {}
-    return entry if entry.members or snake(keys["name"]) == name else replace(entry, keys={"id": name, **keys})
+    others = {key: value for key, value in keys.items() if key != "id"}
+    own = {} if snake(keys["name"]) == name else {"id": name}
+    return entry if entry.members else replace(entry, keys={**own, **others})
 
 
-MEANINGS = frozenset({"enum", "flags", "fields", "kind"})
+MEANINGS = frozenset({"enum", "flags", "fields", "kind", "range", "valid"})
 """Keys of which a register has one."""
 
 
+def _besides(one: Point, merged: Point) -> dict[str, Any]:
+    """Further keys of a row that says a register again, which those before it leave open."""
+    closed = ITS_OWN | (MEANINGS if MEANINGS & merged.more.keys() else frozenset())
+    return {key: value for key, value in one.more.items() if key not in closed}
+
+
+ITS_OWN = frozenset({"id", "when"})
+"""Keys that another row of the same register does not change."""
+
+
 def _again(first: Point, one: Point, more: dict[str, Any]) -> Remark:
-    contrary = [key for key, value in one.more.items() if more.get(key) != value]
+    contrary = [key for key, value in one.more.items() if more.get(key) != value and key not in ITS_OWN]
     contrary += ["unit"] if one.unit and one.symbol != first.symbol else []
     lost = f"; its {', '.join(contrary)} is not taken over" if contrary else ""
     message = f"the same register as `{first.name}` ({first.place}){lost}"
