@@ -24,7 +24,7 @@ SOURCES = {
 }
 LIBRARIES = {"pymodbus", "serial", "yaml", "_yaml", "jinja2", "markupsafe", "jsonschema", "jsonschema_specifications"}
 LIBRARIES |= {"referencing", "rpds", "attr", "attrs", "click", "rich", "plotille", "pygments", "markdown_it", "mdurl"}
-LIBRARIES |= {"typing_extensions.py"}
+LIBRARIES |= {"typing_extensions.py", "openpyxl", "et_xmlfile", "defusedxml"}
 
 
 def run(*command: str | Path, cwd: Path) -> str:
@@ -174,6 +174,7 @@ def test_an_installed_regscribe_checks_compiles_and_starts_maps(installed: Path,
 
 
 def test_an_installed_regscribe_finds_its_own_plugins(installed: Path, tmp_path: Path) -> None:
-    exported = run(installed / "regscribe", "export", "fdc/series-100", "--format", "csv", cwd=tmp_path)
-    (tmp_path / "table.csv").write_text(exported)
-    assert "is ready" in run(installed / "regscribe", "new", "acme/oven", "--from", "table.csv", cwd=tmp_path)
+    assert "address" in run(installed / "regscribe", "export", "fdc/series-100", "--format", "csv", cwd=tmp_path)
+    (tmp_path / "list.csv").write_text("Address;Name;Type;Access\n1;Speed;U16;R\n")
+    run(installed / "regscribe", "import", "list.csv", "-o", "maps/acme/fan.yaml", cwd=tmp_path)
+    assert "1 map checked" in run(installed / "regscribe", "check", cwd=tmp_path)
