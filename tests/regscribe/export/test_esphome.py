@@ -335,6 +335,8 @@ def test_neighbours_stay_in_one_request_where_they_may(made: Made) -> None:
     assert requests(found) == [125]
     found = made(*(f"at: {at}, name: A{at}, {READ}" for at in range(126)))
     assert sorted(requests(found)) == [1, 125]
+    found = made(*(f"at: {at}, name: A{at}, {READ}" for at in range(11)), top="protocol: {limits: {read_words: 4}}")
+    assert sorted(requests(found)) == [1, 1, 1, 4, 4]  # 0..3, 4, 5..8, 9, 10
 
 
 def test_all_bits_of_a_forced_word_are_forced(made: Made) -> None:
@@ -394,3 +396,10 @@ def test_hostile_labels_and_units_are_texts(made: Made) -> None:
 
 def test_the_head_names_the_program_that_read_it(exported_text: Text, small: Small) -> None:
     assert exported_text(FORM, small("at: 0, name: A")).splitlines()[2] == "# esphome: verified with ESPHome 2026.6.5"
+
+
+def test_parts_of_four_words_stay_in_their_number_and_are_told(one: Made, losses: Lost) -> None:
+    # the component takes no mask for them
+    wide = f"at: 0, name: A, type: uint64, fields: {{a: {{bits: 0..7}}, b: {{bits: 40..43}}}}, {READ}"
+    assert "bitmask" not in one("sensor", wide)
+    assert losses(wide)["fields"].startswith("LOST")

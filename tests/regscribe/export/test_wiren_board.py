@@ -139,6 +139,7 @@ def test_digits_that_the_service_does_not_show_are_told(losses: Lost) -> None:
         ("type: int32, sentinels: {-1: broken}", "0xFFFFFFFF"),
         ("type: uint16, sentinels: {65535: broken}", "0xFFFF"),
         ("type: int8, sentinels: {-128: broken}", "0x80"),
+        ("type: int24, sentinels: {-1: broken}", "0xFFFFFF"),
         ("type: bcd16, sentinels: {9999: broken}", "0x9999"),
         ("type: float32, sentinels: {-2: broken}", "0xC0000000"),
     ],
@@ -146,7 +147,9 @@ def test_digits_that_the_service_does_not_show_are_told(losses: Lost) -> None:
 def test_a_fault_word_is_the_pattern_of_its_bits(one: Made, losses: Lost, fault: str, pattern: str) -> None:
     # the service compares bits, not numbers
     assert one(f"at: 0, name: A, {fault}, {READ}")["error_value"] == pattern
-    assert losses(f"at: 0, name: A, {fault}, {READ}")["sentinel-label"].startswith("LOST")
+    found = losses(f"at: 0, name: A, {fault}, {READ}")
+    assert found["sentinel-label"].startswith("LOST")
+    assert not {"sentinel", "several-sentinels"} & found.keys()
 
 
 def test_of_several_fault_words_one_is_told_to_be_shown(one: Made, losses: Lost) -> None:

@@ -8,7 +8,8 @@ import os
 import re
 import sqlite3
 import sys
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
+from dataclasses import replace
 from datetime import UTC, datetime
 from decimal import Decimal
 from importlib import import_module
@@ -19,14 +20,15 @@ from xml.etree import ElementTree as ET
 import pytest
 import yaml
 
+from regscribe import plugins
 from regscribe.cli.shared import output
 from regscribe.emit import python
 from regscribe.export.collectd import TARGET, collectd_text
 from regscribe.export.csv import csv_text
-from regscribe.export.device import Place, Request, device_of
+from regscribe.export.device import Place, device_of
+from regscribe.export.device.options import request_of
 from regscribe.model import RegisterMap
 from regscribe.pipeline import compile_map
-from regscribe.reference import Surroundings
 from regscribe.simulate import simulate
 from regscribe.tools.live.decode import Decoder
 from regscribe.tools.live.errors import TargetError
@@ -157,21 +159,58 @@ def test_the_csv_export_of_hostile_text_holds_no_formula(maps: list[RegisterMap]
 
 def test_a_collectd_configuration_of_hostile_text_holds_its_own_directives_only(maps: list[RegisterMap]) -> None:
     for register_map in maps:
-        place = Place(unit=1, host=register_map.title)
-        model = register_map.models[0]
-        request = Request(
-            register_map=register_map,
-            model=model,
-            registers=model.registers,
-            named=frozenset(),
-            known=Surroundings(),
-            unit=1,
-            name=register_map.title,
-            every=10,
-            place=place,
-        )
+        asked = options_of("collectd", register_map)
+        named = request_of([register_map], asked, "collectd", placed=True)
+        request = replace(named, name=register_map.title, place=Place(unit=1, host=register_map.title))
         text = collectd_text(device_of(TARGET, request))
         assert [line for line in text.split("\n") if not COLLECTD.fullmatch(line)] == []
+
+
+def options_of(form: str, register_map: RegisterMap) -> dict[str, str]:
+    """The options of a format, for the first model."""
+    known = {option.name: option.default for option in plugins.exporter(form).options}
+    said = {"model": register_map.models[0].name, "given": "codes=1\ncooled=true", "at": "h:502"}
+    return known | {key: value for key, value in said.items() if key in known}
+
+
+class Tagless(yaml.SafeLoader):
+    """Takes the tags that ESPHome's export needs, and no others."""
+
+
+Tagless.add_constructor("!lambda", lambda loader, node: ("lambda", loader.construct_scalar(node)))  # type: ignore[arg-type]  # a text
+Tagless.add_constructor("!literal", lambda loader, node: ("literal", loader.construct_scalar(node)))  # type: ignore[arg-type]  # a text
+NUMBERS = re.compile(r"[-+\w\s.=<>&?:;()*/]*")
+"""All that a lambda has: numbers, the raw one, and what is done with them."""
+
+
+def texts_of(found: Any) -> Iterator[Any]:
+    """Every key and value of a document."""
+    if isinstance(found, dict):
+        for key, value in found.items():
+            yield from (key, *texts_of(value))
+    elif isinstance(found, list):
+        for one in found:
+            yield from texts_of(one)
+    else:
+        yield found
+
+
+@pytest.mark.parametrize("form", ["home-assistant", "esphome", "wiren-board"])
+def test_an_export_of_hostile_text_holds_texts_and_nothing_that_is_replaced_or_run(
+    maps: list[RegisterMap], form: str
+) -> None:
+    known = {option.name: option.default for option in plugins.exporter(form).options}
+    for register_map in maps:
+        asked = known | {"model": register_map.models[0].name, "given": "codes=1\ncooled=true"}
+        (text,) = plugins.export(
+            form, [register_map], asked | ({"at": "h:502"} if "at" in known else {})
+        ).texts.values()
+        assert isinstance(text, str)
+        plain = re.sub("^//.*\n", "", text, flags=re.MULTILINE)
+        said = list(texts_of(json.loads(plain) if form == "wiren-board" else yaml.load(text, Tagless)))  # noqa: S506 - safe
+        assert all(NUMBERS.fullmatch(one[1]) for one in said if isinstance(one, tuple) and one[0] == "lambda")
+        assert form != "esphome" or not [one for one in said if isinstance(one, str) and "$" in one]
+    assert CANARY not in os.environ
 
 
 def test_a_picture_of_a_hostile_program_is_sound_and_holds_nothing_active(
