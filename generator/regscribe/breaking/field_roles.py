@@ -76,7 +76,7 @@ PATHS: Mapping[type, frozenset[str]] = {
     Is: frozenset({"register"}),
     Ref: frozenset({"register"}),
     Decimals: frozenset({"register"}),
-    Effect: frozenset({"sets", "defaults"}),
+    Effect: frozenset({"defaults"}),
     Pid: frozenset({"band", "integral", "derivative", "bias", "ends"}),
     OnOff: frozenset({"hysteresis"}),
     Output: frozenset({"percent", "manual", "failsafe", "low", "high", "active"}),
@@ -85,24 +85,33 @@ PATHS: Mapping[type, frozenset[str]] = {
     Ramp: frozenset({"rises", "falls", "shows"}),
     Process: frozenset({"value", "setpoint", "highest", "lowest", "fault"}),
     SetpointProgram: frozenset(
-        {"number_of_segments", "cycles", "holdback", "power_failure", "end", "setpoint_limits", "enable"}
+        {"number_of_segments", "cycles", "holdback", "power_failure", "end", "setpoint_limits"}
         | {"segment_now", "program_now", "setpoint_now"}
     ),
-    ProgramSegments: frozenset({"setpoint", "ramp", "soak", "outputs", "idle"}),
-    ProgramFinal: frozenset({"setpoint", "outputs"}),
+    ProgramSegments: frozenset({"setpoint", "ramp", "soak", "idle"}),
+    ProgramFinal: frozenset({"setpoint"}),
     ProgramTimeUnit: frozenset({"register"}),
     ProgramStates: frozenset({"register"}),
-    ProgramAction: frozenset({"writes"}),
-    Identity: frozenset({"texts"}),
     Page: frozenset({"selectors"}),
     Register: frozenset({"shadows", "rereads", "follows"}),
     Array: frozenset({"counted"}),
     Command: frozenset({"step_registers"}),
     Given: frozenset({"register"}),
-    ValueExample: frozenset({"register", "state"}),
-    FrameExample: frozenset({"writes", "state"}),
+    ValueExample: frozenset({"register"}),
 }
-"""Fields that hold paths of registers, alone or beside numbers and names of outputs."""
+"""Fields that hold paths of registers and no other texts."""
+
+PAIRS: Mapping[type, Mapping[str, int]] = {
+    Effect: {"sets": 0},
+    SetpointProgram: {"enable": 0},
+    ProgramSegments: {"outputs": 1},
+    ProgramFinal: {"outputs": 1},
+    ProgramAction: {"writes": 0},
+    Identity: {"texts": 0},
+    ValueExample: {"state": 0},
+    FrameExample: {"writes": 0, "state": 0},
+}
+"""Fields that hold pairs, and which half of each is the path of a register."""
 
 IDS: Mapping[type, Mapping[str, str]] = {
     ProgramAction: {"command": "commands"},

@@ -9,7 +9,7 @@ from fractions import Fraction
 from types import NoneType
 from typing import Any
 
-from regscribe.breaking.field_roles import IDS, PATHS, TEXTS, UNCOMPARED, UNORDERED
+from regscribe.breaking.field_roles import IDS, PAIRS, PATHS, TEXTS, UNCOMPARED, UNORDERED
 from regscribe.breaking.renames import SAME_NAMES, Renames
 from regscribe.emit.words import one_line
 from regscribe.model import Condition, Open, OrderCases
@@ -62,6 +62,8 @@ def renamed_field(thing: Any, name: str, renames: Renames) -> Any:  # noqa: ANN4
     value = getattr(thing, name)
     if name in PATHS.get(type(thing), ()):
         value = _replaced(value, renames.path)
+    elif (half := PAIRS.get(type(thing), {}).get(name)) is not None:
+        value = tuple((*pair[:half], renames.path(pair[half]), *pair[half + 1 :]) for pair in value)
     elif sort := IDS.get(type(thing), {}).get(name):
         value = getattr(renames, sort).get(value, value)
     return value

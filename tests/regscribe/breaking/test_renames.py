@@ -64,6 +64,22 @@ def test_a_renamed_group_does_not_move_its_registers(edited: Any) -> None:
     assert told(found) == [("RS0753", ("leaves",), "paged", "leaves")]
 
 
+def test_a_renamed_register_is_the_same_in_examples_effects_and_identification(bench: Any) -> None:
+    old = BASE.replace("words: [85]}]", "words: [85]}], effects: [{set: {mode: 0}}]").replace(
+        "{bank: 0..5}", "{mode: 0..1}"
+    )
+    old = old.replace("words: [200]", "with: {mode: 1}, words: [200]").replace("hot: {mode: heat}", "hot: {mode: 1}")
+    new = old.replace("name: Mode", "name: State").replace("{mode:", "{state:")
+    found = bench.compared(old, new).changes
+    assert told(found) == [("RS0742", ("state",), "mode", "state")]
+
+
+def test_a_text_that_is_as_a_renamed_path_stays_a_text(bench: Any) -> None:
+    old = BASE.replace("{when: {bank: 0..5}, models", "{text: {serial: mode}, models")
+    new = old.replace("name: Mode, enum", "name: State, enum").replace("hot: {mode: heat}", "hot: {state: heat}")
+    assert told(bench.compared(old, new).changes) == [("RS0742", ("state",), "mode", "state")]
+
+
 def test_a_renamed_given_does_not_change_what_depends_on_it(edited: Any) -> None:
     found = edited("  ratio: {type", "  turns: {type", "{given: ratio}", "{given: turns}")
     assert told(found) == [("RS0753", ("turns",), "ratio", "turns")]

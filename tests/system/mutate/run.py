@@ -28,6 +28,7 @@ SUITES = {
     "expressions": ("tests/regscribe/emit/python/test_expressions.py",),
     "vectors": ("tests/regscribe/emit/vectors", "-k", "not schema and not seed"),
     "reference": ("tests/regscribe/reference/test_reference.py", "tests/regscribe/emit/vectors/test_numbers.py"),
+    "breaking": ("tests/regscribe/breaking", "-m", "not slow"),
     "testing": ("tests/regscribe/testing/test_driver_checks.py",),
     "markdown": (
         "tests/regscribe/emit/markdown/test_content.py",
