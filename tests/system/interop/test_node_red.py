@@ -22,8 +22,8 @@ pytestmark = pytest.mark.interop("node-red")
 PATIENCE = 60
 """Seconds for Node-RED to start, and for each answer."""
 
-LEFT_OUT = {"clock", "cooling"}
-"""A date, which the flow does not read, and what does not exist as the device is stated."""
+LEFT_OUT = {"cooling"}
+"""What does not exist as the device is stated."""
 
 WRITTEN = {
     "setpoint": 123.4,

@@ -29,7 +29,9 @@ LONGEST_INTERVAL = (1 << 31) // 1000 - 1
 
 carries: Carries = RESOLVED | {
     **dict.fromkeys(("scale", "offset", "unit", "sentinel", "special-value", "valid", "saturates"), Carry.WHOLE),
-    **dict.fromkeys(("enum", "flags", "fields", "boolean", "string", "padding", "version", "bytes"), Carry.WHOLE),
+    **dict.fromkeys(
+        ("enum", "flags", "fields", "boolean", "string", "padding", "version", "bytes", "date"), Carry.WHOLE
+    ),
     **dict.fromkeys(("range", "range-union", "functions", "array", "limits"), Carry.WHOLE),
     "write": Carry.PARTLY,
 }

@@ -133,12 +133,66 @@ function textOf(one, bytes) {
   return text.replace(/ +$/, '')
 }
 
+const NAMES = { Y: 'year', y: 'year', M: 'month', D: 'day', h: 'hour', m: 'minute', s: 'second' }
+const LAST = 253402300799 // the last second of the year 9999
+
+function partOfMoment([letter, at, size, form, digits, after], bytes) {
+  const raw = bytes.slice(at, at + size)
+  const text = form === 'ascii' ? Buffer.from(raw).toString('latin1') : form === 'bcd' ? hex(raw) : String(whole(raw))
+  if (!/^[0-9]+$/.test(text)) return letter === '_' && form === 'ascii' ? 0 : NaN
+  const above = BigInt(text) / 10n ** BigInt(after)
+  return Number(digits ? above % 10n ** BigInt(digits) : above)
+}
+
+function ofIec870(bytes) {
+  const thousandths = bytes[6] * 256 + bytes[7]
+  const year = bytes[1] & 127
+  if (bytes[5] >> 7 || year > 99 || thousandths >= 60000) return null
+  const parts = { year: 2000 + year, month: bytes[2] & 15, day: bytes[3] & 31, hour: bytes[4] & 31, minute: bytes[5] & 63 }
+  return calendar({ ...parts, second: Math.floor(thousandths / 1000) }, thousandths % 1000)
+}
+
+// A moment of UTC, of which only the text counts; null where no calendar has it.
+function calendar({ year, month, day, hour, minute, second }, thousandths = 0) {
+  const moment = new Date(0)
+  moment.setUTCFullYear(year, month - 1, day)
+  moment.setUTCHours(hour, minute, second, thousandths)
+  const found = [moment.getUTCFullYear(), moment.getUTCMonth() + 1, moment.getUTCDate(), moment.getUTCHours(), moment.getUTCMinutes(), moment.getUTCSeconds()]
+  return year >= 1 && year <= 9999 && [year, month, day, hour, minute, second].every((part, at) => part === found[at]) ? moment : null
+}
+
+function momentOf(layout, bytes) {
+  if (layout.iec870) return ofIec870(bytes)
+  if (layout.step) {
+    const seconds = whole(bytes) * BigInt(layout.step)
+    const sum = seconds + BigInt(layout.epoch)
+    return sum > BigInt(LAST) || (layout.daily && seconds >= 86400n) ? null : new Date(1000 * Number(sum))
+  }
+  const parts = { year: 2000, month: 1, day: 1, hour: 0, minute: 0, second: 0 }
+  for (const one of layout.parts) {
+    const number = partOfMoment(one, bytes)
+    if (Number.isNaN(number) || (one[0] === 'y' && number > 99)) return null
+    if (NAMES[one[0]]) parts[NAMES[one[0]]] = number + (one[0] === 'y' ? 2000 : 0)
+  }
+  return calendar(parts)
+}
+
+function momentText(one, bytes) {
+  const moment = momentOf(one.layout, bytes)
+  if (moment === null) return null
+  const text = moment.toISOString().slice(0, moment.getUTCMilliseconds() ? 23 : 19).replace(/\.(...)$/, '.$1000')
+  return one.kind === 'date' ? text.slice(0, 10) : one.kind === 'time' ? text.slice(11) : text
+}
+
 const hex = (bytes) => Buffer.from(bytes).toString('hex')
 const BYTES = {
   string: textOf,
   bytes: (_, bytes) => hex(bytes),
   mac: (_, bytes) => bytes.map((byte) => hex([byte])).join(':'),
   ipv4: (_, bytes) => bytes.join('.'),
+  datetime: momentText,
+  date: momentText,
+  time: momentText,
   ipv6: (_, bytes) => new URL(`http://[${hex(bytes).match(/..../g).join(':')}]`).hostname.slice(1, -1)
 }
 

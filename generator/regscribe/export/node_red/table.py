@@ -4,6 +4,7 @@ What the table says is data: the code of a node is the same for every map, so th
 """
 
 from collections.abc import Sequence
+from datetime import timedelta
 from fractions import Fraction
 from typing import Any
 
@@ -12,7 +13,8 @@ from regscribe.export.device import Point
 from regscribe.export.device.places import places_of
 from regscribe.model import BitField, Kind, Sentinel, WireType
 from regscribe.reference.limits import Limits
-from regscribe_runtime.values.octets import TextForm
+from regscribe_runtime.values.kinds import MOMENTS
+from regscribe_runtime.values.octets import EPOCH, SPANS, TextForm, layout_of
 
 Entry = dict[str, Any]
 """What JSON has."""
@@ -57,6 +59,8 @@ def _meaning(point: Point) -> Entry:
     said: Entry = {"kind": str(register.kind)}
     if register.kind is Kind.STRING:
         said |= _text(register.text)
+    elif register.kind in MOMENTS:
+        said["layout"] = _layout(register.layout)
     elif not wire_type.is_octets:
         said |= {"type": type_of(wire_type)} | _number(point)
     if register.enum:
@@ -132,6 +136,18 @@ def _part(field: BitField) -> Entry:
 def _text(form: TextForm) -> Entry:
     said: Entry = {"width": form.size, "padding": form.padding, "ends": list(form.ends)}
     return said | {"charset": WHOLE_BYTES.get(form.encoding) or {"letters": letters_of(form.encoding)}}
+
+
+def _layout(text: str) -> Entry:
+    """How words tell a date: seconds since a moment, or parts with their bytes."""
+    layout = layout_of(text)
+    if layout.step:
+        epoch = (layout.epoch - EPOCH) // timedelta(seconds=1)
+        return {"step": layout.step, "epoch": epoch} | ({"daily": True} if text in SPANS else {})
+    if not layout.parts:
+        return {"iec870": True}
+    forms = (("ascii" if one.ascii else "bcd" if one.bcd else "whole", one) for one in layout.parts)
+    return {"parts": [[one.letter, one.place, one.size, form, one.digits, one.after] for form, one in forms]}
 
 
 def is_readable(form: TextForm) -> bool:
