@@ -6,6 +6,7 @@ from regscribe.draft.numbers import plain, unscaled
 from regscribe.importers.table.cells import Unclear
 from regscribe.importers.table.cells.orders import order_in
 from regscribe.importers.table.cells.ranges import Limits, Settled, parse_number
+from regscribe.importers.table.cells.scale_cells import scale_register
 from regscribe.importers.table.cells.scale_words import scale_in
 from regscribe.importers.table.cells.scales import PLAIN, Scale, parse_offset
 from regscribe.importers.table.cells.types import TypeCell, parse_order
@@ -118,6 +119,12 @@ def _add_orders(making: Making, whole: Whole, choices: Choices) -> None:
 
 def add_scale(making: Making, whole: Whole, index: int) -> None:
     """Set the scale that the row says; where it is unclear, programs get the raw number."""
+    exponent = whole.exponents.get(scale_register(making.item["scale"]).casefold())
+    if exponent and not making.item["offset"] and not making.item["decimals"]:
+        making.scale = None  # it is not known here, so ranges cannot be read
+        making.set({"exponent": exponent})
+        making.tell("scale-register", f"its scale is ten to the power of `{exponent}`")
+        return
     found = _scale(making, whole, index)
     if isinstance(found, Unclear):
         making.scale = None

@@ -1,6 +1,7 @@
 """What only the table as a whole tells: the base of addresses, spaces, dialects, whether scales divide."""
 
 import itertools
+from collections import Counter
 from collections.abc import Sequence
 from dataclasses import dataclass
 
@@ -18,6 +19,7 @@ from regscribe.importers.table.columns import Column
 from regscribe.importers.table.headings import AT
 from regscribe.importers.table.layout import Item
 from regscribe.model import Space, WireType
+from regscribe.model.identifiers import snake
 
 NUMBERS = ("scale", "offset", "range", "min", "max", "default")
 """Columns of numbers, which write fractions alike."""
@@ -30,7 +32,8 @@ class Whole:
     """What the table says as a whole, row by row where it does.
 
     `functions` are those that a row names; `limits` are ranges as printed; `comma`: whether commas are decimal points
-    (None: nothing shows it); `base` is what the option of that name would say.
+    (None: nothing shows it); `exponents` are the ids of registers that may hold powers of ten, by name; `base` is what
+    the option of that name would say.
     """
 
     addresses: tuple[Parsed, ...]
@@ -42,6 +45,7 @@ class Whole:
     decimals: ScaleColumn
     limits: tuple[Limits | Unclear | None, ...]
     comma: bool | None
+    exponents: dict[str, str]
     headings: dict[str, str]
     stated: tuple[str, ...]
     base: str
@@ -81,7 +85,18 @@ def whole_of(items: Sequence[Item], columns: Sequence[Column], choices: Choices,
     plain = tuple(filter(None, stated))
     functions = tuple(cell.functions if isinstance(cell, SpaceCell) else () for cell in said.cells)
     known = (found.cells, spaces, functions, types, choice.dialect)
-    return Whole(*known, scales, decimals, limits, comma, headings, plain, found.words)
+    exponents = _exponents(items, types)
+    return Whole(*known, scales, decimals, limits, comma, exponents, headings, plain, found.words)
+
+
+def _exponents(items: Sequence[Item], types: Sequence[TypeCell | Unclear | None]) -> dict[str, str]:
+    """The ids of the registers of 16 bits with a sign whose name no other has, by name in small letters."""
+    names = Counter(item["name"].casefold() for item in items)
+    return {
+        item["name"].casefold(): snake(item["name"])
+        for item, wire in zip(items, types, strict=True)
+        if isinstance(wire, TypeCell) and wire.type is WireType.INT16 and names[item["name"].casefold()] == 1
+    }
 
 
 def _limits(items: Sequence[Item], comma: bool | None) -> tuple[tuple[Limits | Unclear | None, ...], str]:  # noqa: FBT001 - three states

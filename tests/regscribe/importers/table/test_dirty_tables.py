@@ -232,3 +232,11 @@ def test_a_code_that_may_count_both_is_asked_for(imported: Import) -> None:
     found = imported("table", NAMED_VALUES)
     assert found.codes("Setpoint") == ["codes-unclear", "range-unclear"]
     assert "# TODO code -999 is not in the map: the number -999 may count values, or stored numbers" in found.text
+
+
+def test_the_name_of_a_scale_factor_is_the_register_that_holds_it(imported: Import) -> None:
+    rows = "2,A,uint16,A_SF,A\n6,A_SF,sunssf,,\n7,W,int16,W_SF,W\n9,WH,acc32,-3,Wh\n"
+    found = imported("table", f"Address Offset,Name,Type,Scale Factor,Units\n{rows}")
+    assert "name: A, access: r, exponent: a_sf, unit: A" in found.text
+    assert found.codes("W") == ["scale-unclear"]  # the table has no register W_SF
+    assert found.value("wh", 0, 1500) == Fraction(15, 10)

@@ -277,7 +277,7 @@ def test_ranges_that_are_printed_with_a_decimal_point_count_values_and_so_do_tho
         ("0..10", None),
         ("0..7", 7),
     ]
-    assert "ranges count values, as 1 of them fit their types in no other way" in found.stated
+    assert "ranges count values, as 1 of them fits its type in no other way" in found.stated
 
 
 def test_an_unclear_type_order_or_address_leaves_the_row_out_with_the_reason() -> None:

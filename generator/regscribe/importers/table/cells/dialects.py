@@ -147,7 +147,7 @@ def _size_bits(rows: Sequence[Row]) -> tuple[int, str] | None:
     if sum(number for _, number in others) * 4 > count:
         return None
     name = next(name for name, bits in SIZES.items() if bits == best)
-    return best, f"sizes count {name}, as {count} rows show by their types or the distance to the next row"
+    return best, f"sizes count {name}, by the types of {count} rows or the distance to the next row"
 
 
 def _width(word: str, rows: Sequence[tuple[str, int]], size_bits: int | None) -> tuple[int, str]:
@@ -185,4 +185,4 @@ def _text_counts(rows: Sequence[Row]) -> tuple[bool, str] | None:
     if bool(registers) == bool(characters):
         return None
     name, count = ("characters", characters) if characters else ("registers", registers)
-    return bool(characters), f"lengths of texts count {name}, as {count} of them end just before the next row"
+    return bool(characters), f"lengths of texts count {name}, as {count} of them show, which reach up to the next row"

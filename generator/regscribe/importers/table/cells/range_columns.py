@@ -60,10 +60,14 @@ def _rule(stored: int, values: int, counts: str) -> tuple[str, str]:
     if counts:
         return counts, f"ranges count {'stored numbers' if counts == STORED else 'values'}, as the user says"
     if stored and not values:
-        return STORED, f"ranges count stored numbers, as {stored} of them fit their types in no other way"
+        return STORED, f"ranges count stored numbers, as {_fitting(stored)} in no other way"
     if values and not stored:
-        return VALUE, f"ranges count values, as {values} of them fit their types in no other way"
+        return VALUE, f"ranges count values, as {_fitting(values)} in no other way"
     return "", ""
+
+
+def _fitting(count: int) -> str:
+    return "1 of them fits its type" if count == 1 else f"{count} of them fit their types"
 
 
 def _fits(row: Ranged, *, stored: bool) -> bool:

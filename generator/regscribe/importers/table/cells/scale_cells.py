@@ -60,6 +60,12 @@ def bare_number(text: str, *, comma: bool | None = None) -> Fraction | None:
     return found if isinstance(found, Fraction) else None
 
 
+def scale_register(text: str) -> str:
+    """The name of the register that holds the exponent (`W_SF`); empty where a cell names none."""
+    plain = clean(text)
+    return plain if _NAME.fullmatch(plain) and plain.casefold().endswith("sf") else ""
+
+
 def is_product(text: str) -> bool:
     """Whether a cell is `x10`, which may also mean that the device sends ten times the value."""
     return bare_number(text) is not None and _FACTOR.fullmatch(clean(text)) is not None

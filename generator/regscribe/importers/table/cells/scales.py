@@ -9,7 +9,13 @@ from typing import NamedTuple
 from regscribe.importers.table.cells import Unclear, quoted
 from regscribe.importers.table.cells.factors import PLAIN, Scale, Way
 from regscribe.importers.table.cells.numbers import decimal_comma
-from regscribe.importers.table.cells.scale_cells import bare_number, is_product, parse_offset, parse_scale
+from regscribe.importers.table.cells.scale_cells import (
+    bare_number,
+    is_product,
+    parse_offset,
+    parse_scale,
+    scale_register,
+)
 from regscribe.model import WireType, show
 
 __all__ = [
@@ -95,11 +101,17 @@ def _unclear_digits(text: str, bare: Fraction | None, *, comma: bool | None) -> 
     return Unclear(f"it is not clear whether the scale {quoted(text)} is a factor, a divisor or a number of digits")
 
 
+def _may_be_exponents(bare: Sequence[Fraction | None]) -> bool:
+    return all(one is None or (one.denominator == 1 and abs(one) <= MOST_PLACES) for one in bare)
+
+
 def _decide(
     texts: Sequence[str], bare: Sequence[Fraction | None], header: str, hints: Sequence[Hint | None]
 ) -> tuple[Way | None, str]:
     if said := next((way for way, words in _HEADINGS if re.search(words, header, re.IGNORECASE)), None):
         return said, f"the heading `{header.strip()}` says that the numbers mean {said}"
+    if (named := next(filter(None, map(scale_register, texts)), "")) and _may_be_exponents(bare):
+        return Way.EXPONENT, f"registers such as `{named}` hold powers of ten, so bare numbers are such, too"
     telling = sorted({one for one in bare if one is not None and one not in {0, 1}})
     if not telling:
         return None, "no scale but 1 stands as a bare number"
@@ -137,7 +149,8 @@ def _proven(hinted: Sequence[tuple[Fraction | None, Hint | None]]) -> tuple[Way,
     if len(ways) != 1:
         return None
     way = ways.pop()
-    return way, f"the ranges of {len(votes)} rows fit their types only if the numbers mean {way}"
+    rows = "the range of 1 row fits its type" if len(votes) == 1 else f"the ranges of {len(votes)} rows fit their types"
+    return way, f"{rows} only if the numbers mean {way}"
 
 
 def _possible(number: Fraction, hint: Hint) -> Way | None:

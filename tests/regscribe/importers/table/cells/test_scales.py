@@ -141,6 +141,12 @@ def test_a_column_shows_what_its_numbers_do(texts: list[str], heading: str, way:
     assert parse_scales(texts, heading).way is way
 
 
+def test_bare_numbers_beside_names_of_scale_factors_are_powers_of_ten() -> None:
+    found = parse_scales(["A_SF", "-3"], "Scale Factor")
+    assert (found.way, found.cells[1]) == (Way.EXPONENT, Scale(Fraction(1, 1000)))
+    assert parse_scales(["A_SF", "1000"], "Scale Factor").way is Way.DIVIDE
+
+
 def test_the_evidence_names_the_numbers() -> None:
     assert parse_scales(["10", "1", "1000"], "Scale").evidence == "only 10, 1000 occur beside 1, so they divide"
 
