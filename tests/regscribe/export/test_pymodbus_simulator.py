@@ -143,3 +143,14 @@ def test_the_server_answers_one_unit_on_loopback_or_where_it_is_said(exported_te
 
 def test_a_register_that_a_read_clears_is_held_as_well(words: Callable[..., Any]) -> None:
     assert words("at: 0, name: A, access: r, reading: clears, default: 7") == {0: 7}
+
+
+def test_a_second_view_in_an_order_that_nothing_sets_holds_zeros(words: Callable[..., Any]) -> None:
+    top = """
+views:
+  both:
+    base: {type: int16}
+    ieee: {type: float32, offset: 1000, stride: 2, word_order: {register: order, codes: {0: big, 1: little}}}
+"""
+    found = words("at: 0, name: Order, type: uint16, access: r", "at: 1, name: A, views: both, default: 5", top=top)
+    assert found == {0: 0, 1: 5, 1002: 0, 1003: 0}

@@ -123,8 +123,15 @@ def _set_words(device: Device, point: Point, memory: Memory, view: View, address
     fresh = not any(place in cells for place in taken)
     for place, word in taken.items():
         cells.setdefault(place, word)
-    if fresh and not view.is_apart and word_order(view, device.request.known) == AS_IS:
+    if fresh and not view.is_apart and _is_usual(view, device.request.known):
         memory.typed.extend(_typed(view, address, words))
+
+
+def _is_usual(view: View, known: Known) -> bool:
+    try:
+        return word_order(view, known) == AS_IS
+    except UnknownValueError:
+        return False
 
 
 def _typed(view: View, address: int, words: tuple[int, ...]) -> Iterator[Typed]:
