@@ -217,3 +217,8 @@ def test_a_command_has_128_resources_at_most(profile: Profile) -> None:
 def test_texts_of_the_map_stay_texts(resources: Resources) -> None:
     (found,) = resources("""at: 0, name: 'A: {x}', description: '!secret "*" # & {{ y }}'""")
     assert found["description"] == 'A: {x}; !secret "*" # & {{ y }}'
+
+
+def test_a_word_that_is_neither_0_nor_1_is_told_as_it_is(export: Export, small: Small, lost: Lost) -> None:
+    made = export("edgex", small("at: 0, name: A, type: uint16, kind: boolean, access: r"))
+    assert ("a", "truth-of-words", "WRONG") in lost(made)

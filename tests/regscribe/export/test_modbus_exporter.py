@@ -160,3 +160,8 @@ def test_a_pause_stands_between_two_requests(module: Callable[..., dict[str, Any
 def test_a_serial_line_is_refused(export: Export, small: Small) -> None:
     with pytest.raises(OptionError, match="TCP only"):
         export("modbus-exporter", small("at: 0, name: A"), at="/dev/ttyS0")
+
+
+def test_a_word_that_is_neither_0_nor_1_is_told_as_it_is(export: Export, small: Small, lost: Lost) -> None:
+    made = export("modbus-exporter", small("at: 0, name: A, type: uint16, kind: boolean, access: r"), at=AT)
+    assert ("a", "truth-of-words", "LOST") in lost(made)

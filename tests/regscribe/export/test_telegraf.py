@@ -209,3 +209,8 @@ def test_what_it_cannot_say_is_told(export: Export, small: Small, lost: Lost) ->
         at=AT,
     )
     assert {("a", "sentinel", "WRONG"), ("a", "write", "LOST")} <= lost(made)
+
+
+def test_a_word_that_is_neither_0_nor_1_is_told_as_it_is(export: Export, small: Small, lost: Lost) -> None:
+    made = export("telegraf", small("at: 0, name: A, type: uint16, kind: boolean, access: r"), at=AT)
+    assert ("a", "truth-of-words", "LOST") in lost(made)

@@ -120,6 +120,9 @@ groups:
       - {at: 14, name: Latin, type: string, length: 2, text: {encoding: latin-1, padding: nul}}
       - {at: 16, name: Wide Text, type: string, length: 2, text: {encoding: utf-8}}
       - {at: 18, name: Low, type: string, length: 3, word_order: little, text: {one_per_register: low}}
+      - {at: 21, name: Truth, type: uint16, kind: boolean}
+      - {at: 22, name: Halves, type: int16, kind: integer, multiply: 0.5}
+      - {at: 23, name: Serial, type: string, length: 2, sentinels: {4294967295: none}}
 """
 
 GIVEN = (
@@ -144,6 +147,13 @@ GIVEN = (
     ("Latin", "[16868,0]", "Aä"),
     ("Wide Text", "[50084,8224]", "ä"),
     ("Low", "[67,66,65]", "ABC"),
+    ("Truth", "1", "1"),
+    ("Truth", "2", "neither 0 nor 1"),
+    ("Halves", "4", "2"),
+    ("Halves", "5", "no whole number"),
+    ("Serial", "[65535,65535]", "none"),
+    ("Serial", "[16706,50089]", "no ASCII"),
+    ("Serial", "[16706,17152]", "ABC"),
 )
 """Name of an item, what is told (-9999.9 is C61C3F9A, 0.00001 is 3727C5AC, ä is E4 or C3 A4); what is stored."""
 

@@ -153,6 +153,8 @@ def _number(number: Fraction) -> int | Decimal:
 
 def _tell(device: Device, point: Point) -> None:
     register = point.register
+    if register.kind is Kind.BOOLEAN and not point.wire.space.is_bits:
+        device.lose(register, "truth-of-words", Grade.WRONG, "its lowest bit counts, or any number is told as it is")
     if point.members:
         device.lose(register, "enum", Grade.COSMETIC, "labels stand in the description, the value is the code")
     for number in (point.slope, point.offset):

@@ -16,7 +16,7 @@ from regscribe.export.device.names import Names
 from regscribe.export.device.numbers import decimal, is_exact
 from regscribe.export.modbus_exporter.base_units import BASE_UNITS, BaseUnit
 from regscribe.losses import Grade
-from regscribe.model import BitField, Order, show
+from regscribe.model import BitField, Kind, Order, show
 from regscribe.model.identifiers import module_names, opened, snake
 from regscribe.plugins import OptionError
 
@@ -56,6 +56,8 @@ class _Metrics:
             done = f"the number on the wire is exported, without unit: {show(point.slope)} times it"
             self.device.lose(point.register, "offset", Grade.WRONG, f"{done} and {show(point.offset)} is the value")
         factor = Fraction(1) if point.offset else point.slope * unit.factor
+        if point.register.kind is Kind.BOOLEAN:
+            self.device.lose(point.register, "truth-of-words", Grade.LOST, "any other number is told as it is")
         if not is_exact(factor):
             done = f"{decimal(factor)} for {show(factor)}"
             self.device.lose(point.register, "scale-rounded", Grade.COSMETIC, done)

@@ -9,7 +9,7 @@ from regscribe.export.device import Device, Point, Wire
 from regscribe.export.device.names import Names
 from regscribe.export.device.numbers import decimal, is_exact
 from regscribe.losses import Grade
-from regscribe.model import BitField, Order, Space, WireType, show
+from regscribe.model import BitField, Kind, Order, Space, WireType, show
 from regscribe.visible import json_text
 
 Field = dict[str, str]
@@ -141,6 +141,8 @@ def _bit(point: Point, flag: BitField) -> Field:
 
 
 def _scale(device: Device, point: Point) -> Field:
+    if point.register.kind is Kind.BOOLEAN:
+        device.lose(point.register, "truth-of-words", Grade.LOST, "any other number is told as it is")
     for number in (point.slope, point.offset):
         if not is_exact(number):
             device.lose(point.register, "scale-rounded", Grade.COSMETIC, f"{decimal(number)} for {show(number)}")

@@ -11,7 +11,7 @@ from regscribe.emit.words import one_line
 from regscribe.export.device import Device, Point
 from regscribe.export.device.names import Names
 from regscribe.export.device.numbers import decimal, is_exact
-from regscribe.export.zabbix.scripts import EXACT, number_script, part_script, text_script
+from regscribe.export.zabbix.scripts import EXACT, checks_of, number_script, part_script, text_script
 from regscribe.losses import Grade
 from regscribe.model import BitField, Enum, Kind, Order, WireType, show
 
@@ -98,12 +98,10 @@ def _value_type(point: Point) -> str:
 
 def _steps(point: Point) -> Iterator[tuple[str, str]]:
     pattern = point.register.kind in PATTERNS
-    script = number_script(point, pattern=pattern)
-    is_factor = not point.offset and is_exact(point.slope)
-    only_scaled = point.is_scaled and is_factor and not (point.faults or point.valid)
-    if only_scaled and point.wire.type in TYPES:
+    plain = point.wire.type in TYPES and not point.offset and is_exact(point.slope)
+    if plain and point.is_scaled and not checks_of(point, pattern=pattern):
         yield "MULTIPLIER", decimal(point.slope)
-    elif script:
+    elif script := number_script(point, pattern=pattern):
         yield "JAVASCRIPT", script
 
 
@@ -137,8 +135,10 @@ def _part_labels(enum: Enum | None) -> Labels:
 
 def _tell(device: Device, point: Point) -> None:
     register = point.register
-    if register.kind is Kind.STRING and point.sentinels:
-        device.lose(register, "sentinel", Grade.WRONG, "a text that reports a fault is shown as it is")
+    if register.kind is Kind.STRING and any(one.ends and one.ends[0] != one.ends[1] for one in point.sentinels):
+        device.lose(
+            register, "sentinel", Grade.WRONG, "texts that report a fault from one to another are shown as they are"
+        )
     if register.valid and point.valid is None:
         device.lose(register, "valid", Grade.LOST, "its limits are not known as the device is stated")
     for one in point.special_numbers:

@@ -10,7 +10,7 @@ from math import ceil, floor, lcm
 from regscribe.dialects.zabbix import TYPES
 from regscribe.export.device import Point
 from regscribe.export.device.numbers import decimal
-from regscribe.model import BitField, Order, WireType
+from regscribe.model import BitField, Kind, Order, WireType
 from regscribe.reference import ieee_bits, ieee_number
 from regscribe.visible import json_text
 
@@ -32,13 +32,17 @@ LONG = "var v = ((w[0] > 32767 ? w[0] - 65536 : w[0]) * 65536 + w[1]) * 42949672
 
 def number_script(point: Point, *, pattern: bool) -> str:
     """The script of a number; empty where the agent's number is the value."""
-    bits = point.wire.type.bits if pattern else 0
-    checks = [*_checks(point, bits), *_valid(point)]
+    checks = checks_of(point, pattern=pattern)
     if point.wire.type is WireType.INT64 or point.wire.type.is_float or checks or point.is_scaled:
         as_told = point.wire.type in TYPES and not point.is_scaled  # a number of 64 bits is more than `v` can be
         number = "value" if as_told else scaled("v", point.slope, point.offset)
         return " ".join([*_taken(point), *checks, f"return {number};"])
     return ""
+
+
+def checks_of(point: Point, *, pattern: bool) -> list[str]:
+    """What a script asks of the number `v` before it is a value; of a `pattern` without its sign."""
+    return [*_checks(point, point.wire.type.bits if pattern else 0), *_of_kind(point), *_valid(point)]
 
 
 def _taken(point: Point) -> Iterator[str]:
@@ -74,6 +78,14 @@ def _checks(point: Point, bits: int) -> Iterator[str]:
         low, high = Fraction(one.low), Fraction(one.high)
         low, high = (low % 2**bits, high % 2**bits) if bits else (low, high)
         yield f"if ({_reports(point, low, high)}) throw {quoted(one.label)};"
+
+
+def _of_kind(point: Point) -> Iterator[str]:
+    """Yield the errors of numbers that are no value of the register's kind."""
+    if point.register.kind is Kind.BOOLEAN and not point.wire.space.is_bits:
+        yield "if (v !== 0 && v !== 1) throw 'neither 0 nor 1';"
+    if point.register.kind is Kind.INTEGER and (point.slope.denominator > 1 or point.offset.denominator > 1):
+        yield f"if ({scaled('v', point.slope, point.offset)} % 1) throw 'no whole number';"
 
 
 def _reports(point: Point, low: Fraction, high: Fraction) -> str:
@@ -132,11 +144,22 @@ def text_script(point: Point) -> str:
     taken = {"low": "b.push(w[i] & 255);", "high": "b.push(w[i] >> 8);"}
     each = taken.get(form.per_register, "b.push(w[i] >> 8, w[i] & 255);")
     ends = " || ".join(f"b[i] === {end}" for end in form.ends)
-    lines = [words(point), f"var b = [], i; for (i = 0; i < w.length; i++) {{ {each} }}"]
+    lines = [words(point), *_text_faults(point), f"var b = [], i; for (i = 0; i < w.length; i++) {{ {each} }}"]
     if ends:
         lines.append(f"for (i = 0; i < b.length; i++) if ({ends}) b.length = i;")
     lines += [f"while (b[b.length - 1] === {byte}) b.pop();" for byte in dict.fromkeys((form.padding, BLANK))]
+    if form.encoding == "ascii":
+        lines.append("for (i = 0; i < b.length; i++) if (b[i] > 127) throw 'no ASCII';")
     return " ".join([*lines, _characters(form.encoding)])
+
+
+def _text_faults(point: Point) -> Iterator[str]:
+    """Yield the errors of texts that are a fault, as the one number of all their bytes."""
+    for one in point.sentinels:
+        if one.ends and one.ends[0] == one.ends[1]:
+            raw = int(one.ends[0]).to_bytes(2 * point.words, "big")
+            each = [str(int.from_bytes(raw[at : at + 2], "big")) for at in range(0, len(raw), 2)]
+            yield f"if (w.join() === '{','.join(each)}') throw {quoted(one.label)};"
 
 
 def _characters(encoding: str) -> str:
