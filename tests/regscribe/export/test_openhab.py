@@ -350,6 +350,7 @@ def test_both_files_say_what_they_were_made_of(files: Callable[..., Files]) -> N
         ("enum: {0: 'a,b'}", ("x", "label-changed", "COSMETIC")),
         ("access: r, sentinels: {-1: broken}", ("x", "sentinel", "WRONG")),
         ("type: uint16, kind: boolean", ("x", "truth-of-words", "LOST")),
+        ("type: uint16, version: n.n", ("x", "version", "LOST")),
         ("access: r, type: uint16, fields: {low: {bits: 0..3}}", ("x", "fields", "LOST")),
     ],
 )

@@ -172,6 +172,11 @@ def test_parts_that_lie_apart_on_the_wire_are_a_whole_number(export: Export, sma
     ]
 
 
+def test_a_version_is_the_number_that_packs_it(said: Callable[..., Json]) -> None:
+    found = said("type: uint16, version: nn.nn")
+    assert (found["type"], found["x-version"], found["readOnly"]) == ("integer", {"digits": 4, "group": 2}, True)
+
+
 def test_a_text_has_a_charset_of_node(said: Callable[..., Json]) -> None:
     assert content(said("access: r, type: string, length: 4")) == "length=8;charset=utf-8;byteSeq=BIG_ENDIAN"
     assert "charset=latin1" in content(said("access: r, type: string, length: 4, text: latin-1"))
@@ -227,6 +232,7 @@ def test_a_serial_line_is_refused(export: Export, small: Small) -> None:
         ('range: 1..5, special: {0: "off"}', ("x", "special-value", "LOST")),
         ("range: [1..5, 7..9]", ("x", "range-union", "LOST")),
         ("type: uint16, kind: boolean", ("x", "boolean", "COSMETIC")),
+        ("type: uint16, version: n.n", ("x", "version", "LOST")),
         ("type: uint32, word_order: little", ("x", "write", "LOST")),
         ("type: string, length: 2", ("x", "write", "LOST")),
         ("type: int64, access: r", ("x", "type-unread", "LOST")),
@@ -248,7 +254,7 @@ def test_what_is_lost_is_told(
             "type: string, length: 2, text: {one_per_register: low}",
             "left out: the form does not have texts in ascii with one character a register",
         ),
-        ("type: uint16, version: n.n", "left out: it is a version, which the format does not have"),
+        ("type: ipv4", "left out: it is a ipv4, which the format does not have"),
     ],
 )
 def test_what_the_form_does_not_have_is_left_out(export: Export, small: Small, register: str, why: str) -> None:

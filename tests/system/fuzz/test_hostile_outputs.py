@@ -213,6 +213,39 @@ def test_an_export_of_hostile_text_holds_texts_and_nothing_that_is_replaced_or_r
     assert CANARY not in os.environ
 
 
+OPENHAB = re.compile(
+    r"""\s*(//.*|\}|(Bridge|Thing)[ ](?:[^"\\\n]|"(?:[^"\\\n]|\\[btnfru"\\])*")*|
+    (Switch|Number(:[A-Za-z]+)?)[ ]\w+[ ](?:[^"\\\n]|"(?:[^"\\\n]|\\[btnfru"\\])*")*\})?""",
+    re.VERBOSE,
+)
+
+
+def test_flows_descriptions_and_items_of_hostile_text_hold_their_own_words_only(maps: list[RegisterMap]) -> None:
+    codes, keys = set(), set()
+    for register_map in maps:
+        options = {
+            "model": register_map.models[0].name,
+            "given": "codes=1\ncooled=true",
+            "at": "h:502",
+            "writes": "yes",
+        }
+        made = {}
+        for form in ("node-red", "wot-td", "openhab"):
+            known = {option.name: option.default for option in plugins.exporter(form).options}
+            asked = known | {key: text for key, text in options.items() if key in known}
+            made[form] = plugins.export(form, [register_map], asked).texts
+        flow = json.loads(made["node-red"][""])
+        # the code is the same for every map: what a map says stands in a table of JSON behind the first lines
+        codes |= {node["func"].partition("\n]\n")[2] or node["func"] for node in flow if node["type"] == "function"}
+        keys |= json.loads(made["wot-td"][""]).keys()
+        for text in made["openhab"].values():
+            assert isinstance(text, str)
+            assert [line for line in text.split("\n") if not OPENHAB.fullmatch(line)] == []
+    assert len(codes) == 2
+    assert keys == {"@context", "@type", "id", "title", "description", "securityDefinitions", "security", "properties"}
+    assert CANARY not in os.environ
+
+
 def test_a_picture_of_a_hostile_program_is_sound_and_holds_nothing_active(
     hostile: tuple[str, ...], tmp_path: Path
 ) -> None:

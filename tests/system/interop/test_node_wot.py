@@ -122,6 +122,8 @@ def agree(value: Json, said: Json, held: Held) -> bool:
         return value == (held.fields or {name: name in held.flags for name in value})
     if isinstance(value, str):
         return value.rstrip("\0") == held.value
+    if "x-version" in said:
+        return ".".join(str(value)) == held.value
     scale = said.get("x-scale", {"multiply": "1", "add": "0"})
     return Fraction(value) * Fraction(scale["multiply"]) + Fraction(scale["add"]) == held.number
 

@@ -40,6 +40,9 @@ def _item(device: Device, link: Link, called: str) -> str:
         if point.register.kind is Kind.BOOLEAN and point.wire.space.is_words:
             device.lose(point.register, "truth-of-words", Grade.LOST, "any number but 0 is ON")
         return f"Switch {called} {label} {{ {', '.join([_channel(link), _shown(link, {}), *_after(link)])} }}"
+    if point.register.kind is Kind.VERSION:
+        done = f"shown as the number that packs its {point.register.version_digits} digits"
+        device.lose(point.register, "version", Grade.LOST, done)
     dimension = DIMENSIONS.get(point.unit, "") if point.register.kind in NUMBERS else ""
     kind = f"Number:{dimension}" if dimension else "Number"
     unit = [f"unit={json_text(point.unit)}"] if dimension else []

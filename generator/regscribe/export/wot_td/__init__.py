@@ -38,7 +38,7 @@ CONTEXT = [
 carries: Carries = RESOLVED | {
     **dict.fromkeys(("enum", "string", "write-only", "array", "name", "description", "functions"), Carry.WHOLE),
     **dict.fromkeys(("scale", "offset", "unit", "range", "sentinel", "special-value", "boolean"), Carry.PARTLY),
-    **dict.fromkeys(("flags", "fields", "write"), Carry.PARTLY),
+    **dict.fromkeys(("flags", "fields", "version", "write"), Carry.PARTLY),
 }
 
 
@@ -60,7 +60,13 @@ def _refuses(point: Point, _: Request) -> str:
     return ""
 
 
-TARGET = Target(name=name, carries=carries, fits=_fits, refuses=_refuses, verified="node-wot 0.8.16")
+TARGET = Target(
+    name=name,
+    carries=carries,
+    fits=_fits,
+    refuses=_refuses,
+    verified="node-wot 0.8.16, but for whole numbers of 64 bits, which it does not read",
+)
 
 
 def export(maps: Sequence[RegisterMap], options: Mapping[str, str]) -> Exported:

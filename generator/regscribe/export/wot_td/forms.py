@@ -65,6 +65,7 @@ def why_read_only(device: Device, point: Point) -> str:
     reasons = {
         "it is not written in the form in which it is read": point.write is None,
         "its parts share a word with others": register.kind in OBJECTS,
+        "a version is not written as a number": register.kind is Kind.VERSION,
         "node-wot does not fill a text up": register.kind is Kind.STRING,
         "a write needs commands around it": register.unlock or register.apply,
         "the device has no function that writes it": not functions,

@@ -27,6 +27,8 @@ def schema_of(device: Device, point: Point, *, writable: bool) -> Schema:
     if kind is Kind.BOOLEAN and point.wire.space.is_bits:
         return {"type": "boolean"}
     said: Schema = {"type": "number" if wire_type.is_float else "integer"}
+    if kind is Kind.VERSION:
+        said |= _version(device, point)
     if kind is Kind.BOOLEAN:
         device.lose(
             point.register, "boolean", Grade.COSMETIC, "exported as 0 and 1: node-wot would write all bits as 1"
@@ -46,6 +48,14 @@ def schema_of(device: Device, point: Point, *, writable: bool) -> Schema:
 
 def _labels(labels: dict[int, str]) -> Schema:
     return {"oneOf": [{"const": code, "title": label} for code, label in labels.items()]}
+
+
+def _version(device: Device, point: Point) -> Schema:
+    register = point.register
+    done = f"exported as the number that packs its {register.version_digits} digits, as x-version says"
+    device.lose(register, "version", Grade.LOST, done)
+    group = register.version_group or register.version_digits
+    return {"x-version": {"digits": register.version_digits, "group": group}}
 
 
 def _scale(device: Device, point: Point) -> Schema:
