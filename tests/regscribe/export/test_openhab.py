@@ -312,6 +312,11 @@ def test_limits_and_step_are_offered(one: Callable[..., Any]) -> None:
     assert item["autoupdate"] == "false"
 
 
+def test_a_step_of_the_map_is_offered(one: Callable[..., Any]) -> None:
+    _, item = one("decimals: 1, step: 0.5")
+    assert item["stateDescription settings"]["step"] == "0.5"
+
+
 def test_brackets_in_a_label_are_no_form_of_the_value(files: Callable[..., Files]) -> None:
     found = files('at: 7, id: x, name: "Level [%d] of \\"A\\""')
     assert found.item["x"]["label"] == 'Level (%d) of "A"'

@@ -233,6 +233,8 @@ def test_a_serial_line_is_refused(export: Export, small: Small) -> None:
         ("range: [1..5, 7..9]", ("x", "range-union", "LOST")),
         ("type: uint16, kind: boolean", ("x", "boolean", "COSMETIC")),
         ("type: uint16, version: n.n", ("x", "version", "LOST")),
+        ("step: 5", ("x", "step", "LOST")),
+        ("access: r, type: string, length: 2, sentinels: {0: not there}", ("x", "sentinel", "WRONG")),
         ("type: uint32, word_order: little", ("x", "write", "LOST")),
         ("type: string, length: 2", ("x", "write", "LOST")),
         ("type: int64, access: r", ("x", "type-unread", "LOST")),

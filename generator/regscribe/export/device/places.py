@@ -1,7 +1,10 @@
-"""Where the bytes of a value stand on the wire, and which functions write them."""
+"""Where the bytes of a value stand on the wire, which functions write them, and in which steps they count."""
+
+from fractions import Fraction
 
 from regscribe.export.device.points import Point
 from regscribe.model import Order
+from regscribe.reference import Surroundings, UnknownValueError, choose, decimal_factor, present_view
 from regscribe_runtime.values.protocol import Protocol
 
 
@@ -21,3 +24,15 @@ def write_functions(protocol: Protocol, point: Point) -> list[int]:
     view = point.register.write_view
     usable = [one for one in view.space.write_functions if view.allows(one) and one in protocol.functions]
     return [one for one in usable if point.words == 1 or one == view.space.write_functions[-1]]
+
+
+def step_of(point: Point, known: Surroundings) -> Fraction | None:
+    """Return the smallest increment on the wire, None where the map states none; 0 where it is not known now."""
+    try:
+        conversion = choose(point.register.scale, known)
+        if conversion is None or conversion.step is None:
+            return None
+        factor, view = decimal_factor(conversion.places, known), present_view(point.view, known)
+    except UnknownValueError:
+        return Fraction(0)
+    return Fraction(0) if factor is None or view is None else Fraction(conversion.step) / factor * Fraction(view.factor)

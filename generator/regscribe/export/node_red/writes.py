@@ -1,13 +1,10 @@
 """Which registers a flow may write, and the table from which it does."""
 
-from fractions import Fraction
-
 from regscribe.export.device import Device, Point
-from regscribe.export.device.places import places_of, write_functions
+from regscribe.export.device.places import places_of, step_of, write_functions
 from regscribe.export.node_red.table import Entry, entry_of, intervals
 from regscribe.losses import Grade
 from regscribe.model import Kind
-from regscribe.reference import UnknownValueError, choose, decimal_factor, present_view
 
 WRITTEN = frozenset({Kind.NUMBER, Kind.INTEGER, Kind.RAW, Kind.ENUM, Kind.BOOLEAN})
 """Kinds that are written whole, with no bits of others in the same word and no characters to be checked."""
@@ -33,7 +30,7 @@ def _why_not(device: Device, point: Point) -> str:
         f"the flow does not write a value of the kind {register.kind}": register.kind not in WRITTEN,
         "a write needs commands around it": register.unlock or register.apply,
         "its range is not known as the device is stated": point.ranges is None or point.valid is None,
-        "its smallest step is not known as the device is stated": _step(device, point) == 0,
+        "its smallest step is not known as the device is stated": step_of(point, device.request.known) == 0,
         "its words do not stand side by side": point.wire.apart,
         "its writes must be aligned": view.align > 1,
         f"a request may write {most} of its {point.words} words": most < point.words,
@@ -62,19 +59,6 @@ def _number(device: Device, point: Point) -> Entry:
         said["lowest"], said["highest"] = str(wire_type.minimum + clips), str(wire_type.maximum - clips)
         # the byte beside a number of one byte is written as 0, other words that a number does not fill with its sign
         said["bits"] = wire_type.bits if used == 1 else 8 * len(every)
-    if step := _step(device, point):
+    if step := step_of(point, device.request.known):
         said["step"] = str(step)
     return said
-
-
-def _step(device: Device, point: Point) -> Fraction | None:
-    """The smallest increment on the wire, None where the map states none; 0 where it is not known now."""
-    known = device.request.known
-    try:
-        conversion = choose(point.register.scale, known)
-        if conversion is None or conversion.step is None:
-            return None
-        factor, view = decimal_factor(conversion.places, known), present_view(point.view, known)
-    except UnknownValueError:
-        return Fraction(0)
-    return Fraction(0) if factor is None or view is None else Fraction(conversion.step) / factor * Fraction(view.factor)

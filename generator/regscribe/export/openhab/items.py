@@ -7,6 +7,7 @@ from regscribe.emit.words import one_line
 from regscribe.export.device import Device, Point
 from regscribe.export.device.names import Names
 from regscribe.export.device.numbers import decimal, is_exact
+from regscribe.export.device.places import step_of
 from regscribe.export.openhab.things import Link
 from regscribe.export.openhab.units import DIMENSIONS
 from regscribe.export.openhab.values import before_gain
@@ -119,7 +120,8 @@ def _limits(device: Device, point: Point) -> dict[str, str]:
     if point.limits is not None:
         ends = [*point.limits, *(one.value for one in point.special_numbers)]
         found = {"min": decimal(min(ends)), "max": decimal(max(ends))}
-    if not point.wire.type.is_float:
-        found["step"] = decimal(abs(point.slope))
+    step = step_of(point, device.request.known)
+    if step or not point.wire.type.is_float:
+        found["step"] = decimal(abs(point.slope) * (step or 1))
         device.lose(point.register, "step", Grade.LOST, "a value between two steps is cut and not refused")
     return found

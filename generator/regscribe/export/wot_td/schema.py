@@ -7,7 +7,7 @@ from typing import Any
 
 from regscribe.emit.words import conversion_words, labels_of
 from regscribe.export.device import Device, Point
-from regscribe.export.device.places import places_of
+from regscribe.export.device.places import places_of, step_of
 from regscribe.losses import Grade
 from regscribe.model import BitField, Conversion, Kind, Number, Sentinel, exact, show
 
@@ -19,31 +19,36 @@ TRUTH = {0: "false", 1: "true"}
 
 def schema_of(device: Device, point: Point, *, writable: bool) -> Schema:
     """Return the schema of a register's value, and tell what of its facts stands in terms of our own."""
-    kind, wire_type = point.register.kind, point.wire.type
+    kind = point.register.kind
     if kind is Kind.STRING:
+        if point.sentinels:
+            device.lose(point.register, "sentinel", Grade.WRONG, "left out: fault words are texts like any other")
         return {"type": "string"}
     if kind in {Kind.FLAGS, Kind.FIELDS}:
         return _parts(device, point) | _faults(device, point)
     if kind is Kind.BOOLEAN and point.wire.space.is_bits:
         return {"type": "boolean"}
-    said: Schema = {"type": "number" if wire_type.is_float else "integer"}
+    said = {"type": "number" if point.wire.type.is_float else "integer"} | _scale(device, point)
     if kind is Kind.VERSION:
         said |= _version(device, point)
-    if kind is Kind.BOOLEAN:
+    if writable:
+        said |= _range(device, point)
+    return said | _codes(device, point) | _faults(device, point) | _special(device, point)
+
+
+def _codes(device: Device, point: Point) -> Schema:
+    """The numbers on the wire that have a label."""
+    if point.register.kind is Kind.BOOLEAN:
         device.lose(
             point.register, "boolean", Grade.COSMETIC, "exported as 0 and 1: node-wot would write all bits as 1"
         )
-        said |= _labels(TRUTH)
-    if point.members:
-        labels: dict[int, list[str]] = {}
-        for member in point.members:
-            raw = (member.code - point.offset) / point.slope
-            labels.setdefault(raw.numerator, []).append(member.label)  # codes are whole numbers on the wire
-        said |= _labels({code: " / ".join(dict.fromkeys(several)) for code, several in labels.items()})
-    said |= _scale(device, point)
-    if kind in NUMBERS and writable and point.register.range:
-        said |= _range(device, point)
-    return said | _faults(device, point) | _special(device, point)
+        return _labels(TRUTH)
+    labels: dict[int, list[str]] = {}
+    for member in point.members:
+        raw = (member.code - point.offset) / point.slope
+        labels.setdefault(raw.numerator, []).append(member.label)  # codes are whole numbers on the wire
+    joined = {code: " / ".join(dict.fromkeys(several)) for code, several in labels.items()}
+    return _labels(joined) if joined else {}
 
 
 def _labels(labels: dict[int, str]) -> Schema:
@@ -72,6 +77,10 @@ def _scale(device: Device, point: Point) -> Schema:
 
 def _range(device: Device, point: Point) -> Schema:
     """The ends of what may be written, as numbers on the wire; special values widen them."""
+    if step_of(point, device.request.known) is not None:
+        device.lose(point.register, "step", Grade.LOST, "left out: the device may round what is written between")
+    if point.register.kind not in NUMBERS or not point.register.range:
+        return {}
     special = [Fraction(one.wire) for one in point.special_numbers]
     lows, highs = ([pair[side] for pair in point.ranges or ()] for side in (0, 1))
     if point.slope < 0:
