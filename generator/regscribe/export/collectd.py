@@ -34,7 +34,7 @@ SWAPPED = frozenset({WireType.INT32, WireType.UINT32, WireType.FLOAT32})
 LONGEST_NAME = 127
 """collectd cuts longer names off."""
 
-carries: Carries = RESOLVED | dict.fromkeys(("scale", "offset", "array", "limits"), Carry.WHOLE)
+carries: Carries = RESOLVED | dict.fromkeys(("scale", "offset", "limits"), Carry.WHOLE)
 
 
 def _fits(wire: Wire) -> bool:

@@ -21,8 +21,9 @@ from regscribe.emit.words import (
     plain_interval,
     term_words,
 )
-from regscribe.export.device.facts import DEVICE_FACTS, FACTS, Carries, Carry
+from regscribe.export.device.facts import FACTS, Carries, Carry, device_losses
 from regscribe.export.further import beginning, further, valid_words
+from regscribe.losses import Exported, Grade, Loss
 from regscribe.model import (
     IDENTITY,
     BitField,
@@ -46,7 +47,12 @@ from regscribe.visible import cell
 name = "csv"
 summary = "every value of every model, arrays expanded, as a table"
 options: tuple[Option, ...] = ()
-carries: Carries = dict.fromkeys((fact.id for fact in (*FACTS, *DEVICE_FACTS)), Carry.WHOLE)
+carries: Carries = {
+    **dict.fromkeys((fact.id for fact in FACTS), Carry.WHOLE),
+    **dict.fromkeys(("commands", "computed"), Carry.WHOLE),
+    "givens": Carry.PARTLY,
+}
+verified = "Python's csv"
 
 
 class Row(NamedTuple):
@@ -87,9 +93,20 @@ class Row(NamedTuple):
 COLUMNS = Row._fields
 
 
-def export(maps: Sequence[RegisterMap], _: Mapping[str, str]) -> dict[str, str]:
+def export(maps: Sequence[RegisterMap], _: Mapping[str, str]) -> Exported:
     """Return the table for standard output."""
-    return {"": csv_text(maps)}
+    return Exported({"": csv_text(maps)}, losses(maps))
+
+
+def losses(maps: Iterable[RegisterMap]) -> tuple[Loss, ...]:
+    """What a table of registers does not say of a map."""
+    found = []
+    for one in maps:
+        if one.givens:
+            named = ", ".join(given.id for given in one.givens)
+            found.append(Loss("", "givens", Grade.LOST, f"named in conditions only: {named}"))
+        found += [loss for model in one.models for loss in device_losses(one, model, carries)]
+    return tuple(found)
 
 
 def csv_text(maps: Iterable[RegisterMap]) -> str:

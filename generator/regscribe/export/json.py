@@ -8,6 +8,7 @@ from fractions import Fraction
 from typing import Any
 
 from regscribe.emit.header import FORMAT
+from regscribe.export.device.facts import DEVICE_FACTS, FACTS, Carries, Carry
 from regscribe.model import (
     BOTTOM,
     TOP,
@@ -38,6 +39,8 @@ from regscribe_runtime.values.versions import version_of_key
 name = "json"
 summary = "the whole model, for programs in any language"
 options: tuple[Option, ...] = ()
+carries: Carries = dict.fromkeys((fact.id for fact in (*FACTS, *DEVICE_FACTS)), Carry.WHOLE)
+verified = "a check of it against schema/export.schema.json"
 
 EXAMPLES = {ValueExample: "value", FrameExample: "frame", TimingExample: "timing"}
 PLACES = frozenset({"span", "by_path", "libraries", "shipped", "rules"})

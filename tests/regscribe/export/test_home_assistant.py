@@ -336,4 +336,4 @@ def test_the_head_says_of_what_and_for_which_state_it_was_made(exported_text: Te
 def test_a_reading_that_the_device_clipped_is_told_to_be_shown(export: Export, small: Small) -> None:
     top = "views: {tenfold: {base: {type: int16, factor: 10, saturates: true}}}"
     made = export(FORM, small("at: 0, name: A, views: tenfold", top=top), at=AT)
-    assert [(one.register, one.grade.name) for one in made.losses if one.fact == "saturation"] == [("a", "WRONG")]
+    assert [(one.register, one.grade.name) for one in made.losses if one.fact == "saturates"] == [("a", "WRONG")]

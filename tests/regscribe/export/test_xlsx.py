@@ -66,7 +66,8 @@ def test_codes_and_bits_are_readable(lines: Lines) -> None:
 def test_what_no_list_has_a_column_for_stands_behind(lines: Lines) -> None:
     mode, level = lines(
         "at: 0, name: Mode, default: 0",
-        "at: 1, name: Level, when: {mode: 1}, range: 1..9, special: {0: off}, sentinels: {-1: broken}, persistence: eeprom, endurance: 5",
+        "at: 1, name: Level, when: {mode: 1}, range: 1..9, special: {0: off}, "
+        "sentinels: {-1: broken}, persistence: eeprom, endurance: 5",
     )
     assert (level["Exists while"], level["Specials"]) == ("mode is 1", "0 = off")
     assert (level["Fault words"], level["More"]) == ("-1 = broken", "endurance: 5")

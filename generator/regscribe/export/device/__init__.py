@@ -11,7 +11,7 @@ from regscribe.export.device.facts import CODES, RESOLVED, Carries, Carry, devic
 from regscribe.export.device.options import Place, Request, request_of
 from regscribe.export.device.points import Fits, LeftOutError, Point, Wire, point_of
 from regscribe.losses import Exported, Grade, Loss
-from regscribe.model import Model, Register, RegisterMap
+from regscribe.model import Kind, Model, Register, RegisterMap
 from regscribe.plugins import OptionError
 from regscribe.visible import safe
 
@@ -46,7 +46,7 @@ class Target:
 
     `refuses` says why it leaves out a register whose words it can read (nothing: it does not). `verified` names the
     real program that read such an export in the project's tests, empty if none did. `placed`: it says where the device
-    answers.
+    answers. `truth_as_number`: a truth value in a word is exported as the number there, which is told.
     """
 
     name: str
@@ -55,6 +55,7 @@ class Target:
     refuses: Callable[[Point, Request], str] = _nothing
     verified: str = ""
     placed: bool = True
+    truth_as_number: bool = False
 
     @property
     def remark(self) -> str:
@@ -154,6 +155,10 @@ def _point(register: Register, device: Device) -> Point | None:
     if why_not := device.target.refuses(point, device.request) or _too_long(point, device):
         device.lose(register, LEFT_OUT, Grade.LOST, f"left out: {why_not}")
         return None
+    if block := device.request.blocks.get(register.path):
+        device.lose(register, "block", Grade.WRONG, f"fixed for the device as stated: where its block `{block}` begins")
+    if device.target.truth_as_number and register.kind is Kind.BOOLEAN and point.wire.space.is_words:
+        device.lose(register, "boolean", Grade.COSMETIC, "a number: 0 is false")
     device.losses += losses_of(register, device.target.carries, device.model.name, point.view)
     if point.written_otherwise and device.target.carries.get("write", Carry.NO) is not Carry.NO:
         device.lose(register, "write", Grade.LOST, "read only: it is written in another form than it is read in")

@@ -118,12 +118,6 @@ def _sentinels(register: Register) -> str:
     return f"fault words: {', '.join(one_line(sentinel_words(one)) for one in register.sentinels)}"
 
 
-def _saturation(register: Register) -> str:
-    return "clipped by the device: a number at a limit of its type is no value" * any(
-        v.saturates for v in register.views
-    )
-
-
 def _sentinels_by_case(register: Register) -> str:
     by_case = any(not one.when.always for one in register.sentinels)
     return f"by condition, {_sentinels(register)}" if by_case else ""
@@ -216,10 +210,9 @@ FACTS = (
     Fact("range-register", "range by other registers", WRONG, ("range",), _range_register, "range"),
     Fact("range-union", "range with gaps", LOST, ("range",), _range_union, "range"),
     Fact("valid", "limits of a valid reading", LOST, ("valid",), _valid),
-    Fact("saturates", "that a reading may be clipped", LOST, ("views",), _saturates),
+    Fact("saturates", "that a reading may be clipped", WRONG, ("views",), _saturates),
     Fact("sentinel", "fault words", WRONG, ("sentinels",), lambda one: _sentinels(one) if one.sentinels else ""),
     Fact("sentinel-condition", "fault words by condition", WRONG, ("sentinels",), _sentinels_by_case, "sentinel"),
-    Fact("saturation", "readings clipped to the limits of a type", WRONG, ("views",), _saturation),
     Fact("special-value", "special values beside the range", LOST, ("specials",), _said("specials", "special values")),
     Fact("enum", "codes with labels", LOST, ("enum",), _said("enum", "its codes have labels")),
     Fact("flags", "named bits", LOST, ("fields", "none"), _flags),

@@ -2,7 +2,7 @@
 
 import re
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
 from difflib import get_close_matches
 from fractions import Fraction
 
@@ -68,8 +68,8 @@ class Place:
 class Request:
     """What the options ask for: the model as it stands on the device, the registers chosen, state, place, name, poll.
 
-    `layout` is where its blocks stand. `named` are paths that were asked for by name. `place` is None where none was
-    said.
+    `layout` is where its blocks stand, `blocks` the block of each register in one, by path. `named` are paths that were
+    asked for by name. `place` is None where none was said.
     """
 
     register_map: RegisterMap
@@ -82,6 +82,7 @@ class Request:
     name: str
     every: int
     place: Place | None
+    blocks: Mapping[str, str] = field(default_factory=dict)
 
 
 def request_of(maps: Sequence[RegisterMap], options: Mapping[str, str], form: str, *, placed: bool) -> Request:
@@ -92,7 +93,8 @@ def request_of(maps: Sequence[RegisterMap], options: Mapping[str, str], form: st
         message = f"--format {form} is for one device: name one MAP, its --model{where}"
         raise OptionError(message)
     (register_map,) = maps
-    model, layout = _located(register_map, model_of(register_map, wanted), _each(options["base"]), form)
+    written = model_of(register_map, wanted)
+    model, layout = _located(register_map, written, _each(options["base"]), form)
     known = _surroundings(register_map, model, _each(options["with"]), _each(options["given"]))
     registers, named = chosen(model, _each(options.get("group", "")), _each(options.get("register", "")))
     usual = register_map.default_unit or max(1, register_map.protocol.unit_ids[0])
@@ -107,6 +109,7 @@ def request_of(maps: Sequence[RegisterMap], options: Mapping[str, str], form: st
         layout=layout,
         registers=registers,
         named=named,
+        blocks={one.path: one.block for one in written.registers if one.block},
         known=known,
         unit=unit,
         name=called,

@@ -20,7 +20,7 @@ summary = "a device profile of EdgeX's device service Modbus"
 options = (MODEL, *CHOICE, *STATE)
 
 carries: Carries = RESOLVED | {
-    **dict.fromkeys(("unit", "flags", "string", "boolean", "array", "group", "name", "description"), Carry.WHOLE),
+    **dict.fromkeys(("unit", "flags", "string", "boolean", "group", "name", "description"), Carry.WHOLE),
     **dict.fromkeys(("write-only",), Carry.WHOLE),
     **dict.fromkeys(("scale", "offset", "range", "range-union", "sentinel", "enum", "fields", "write"), Carry.PARTLY),
 }

@@ -19,7 +19,8 @@ summary = "a module of the Prometheus exporter modbus_exporter"
 options = tuple(option for option in DEVICE_OPTIONS if option.name != "every")
 
 carries: Carries = RESOLVED | {
-    **dict.fromkeys(("flags", "boolean", "array", "name", "description", "pause"), Carry.WHOLE),
+    "boolean": Carry.PARTLY,
+    **dict.fromkeys(("flags", "name", "description", "pause"), Carry.WHOLE),
     **dict.fromkeys(("scale", "offset", "unit", "enum"), Carry.PARTLY),
 }
 
@@ -42,7 +43,7 @@ def _refuses(point: Point, request: Request) -> str:
     return ""
 
 
-TARGET = Target(name=name, carries=carries, fits=_fits, refuses=_refuses)
+TARGET = Target(name=name, carries=carries, fits=_fits, refuses=_refuses, truth_as_number=True)
 
 
 def export(maps: Sequence[RegisterMap], options: Mapping[str, str]) -> Exported:

@@ -32,7 +32,7 @@ carries: Carries = RESOLVED | {
     **dict.fromkeys(
         ("enum", "flags", "fields", "boolean", "string", "padding", "version", "bytes", "date"), Carry.WHOLE
     ),
-    **dict.fromkeys(("range", "range-union", "functions", "array", "limits"), Carry.WHOLE),
+    **dict.fromkeys(("range", "range-union", "functions", "limits"), Carry.WHOLE),
     "write": Carry.PARTLY,
 }
 

@@ -19,7 +19,7 @@ summary = "things and items of openHAB's modbus binding, as two text files"
 options = DEVICE_OPTIONS
 
 carries: Carries = RESOLVED | {
-    **dict.fromkeys(("scale", "offset", "enum", "flags", "write-only", "array", "name"), Carry.WHOLE),
+    **dict.fromkeys(("scale", "offset", "enum", "flags", "write-only", "name"), Carry.WHOLE),
     **dict.fromkeys(("limits", "functions"), Carry.WHOLE),
     **dict.fromkeys(("unit", "range", "special-value", "boolean", "version", "write"), Carry.PARTLY),
 }

@@ -26,7 +26,7 @@ LONGEST = 200
 """Characters of an object of the identification."""
 
 carries: Carries = RESOLVED | {
-    **dict.fromkeys(("default", "string", "padding", "version", "bytes", "date", "boolean", "array"), Carry.WHOLE),
+    **dict.fromkeys(("default", "string", "padding", "version", "bytes", "date", "boolean"), Carry.WHOLE),
     **dict.fromkeys(("write", "write-only", "view", "alias"), Carry.PARTLY),
 }
 

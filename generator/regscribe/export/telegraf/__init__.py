@@ -18,7 +18,8 @@ summary = "a configuration of Telegraf's modbus input, metric style"
 options = DEVICE_OPTIONS
 
 carries: Carries = RESOLVED | {
-    **dict.fromkeys(("unit", "string", "boolean", "flags", "array", "limits", "pause"), Carry.WHOLE),
+    "boolean": Carry.PARTLY,
+    **dict.fromkeys(("unit", "string", "flags", "limits", "pause"), Carry.WHOLE),
     **dict.fromkeys(("scale", "offset"), Carry.PARTLY),
 }
 
@@ -47,7 +48,7 @@ def _refuses(point: Point, _: Request) -> str:
     return ""
 
 
-TARGET = Target(name=name, carries=carries, fits=_fits, refuses=_refuses)
+TARGET = Target(name=name, carries=carries, fits=_fits, refuses=_refuses, truth_as_number=True)
 
 
 def export(maps: Sequence[RegisterMap], options: Mapping[str, str]) -> Exported:

@@ -23,7 +23,7 @@ summary = "a device template of Wiren Board's wb-mqtt-serial"
 options = (MODEL, *CHOICE, *STATE)
 
 carries: Carries = RESOLVED | {
-    **dict.fromkeys(("scale", "offset", "unit", "enum", "flags", "boolean", "string", "array", "group"), Carry.WHOLE),
+    **dict.fromkeys(("scale", "offset", "unit", "enum", "flags", "boolean", "string", "group"), Carry.WHOLE),
     **dict.fromkeys(("limits", "pause"), Carry.WHOLE),
     **dict.fromkeys(("sentinel", "fields", "write", "range", "poll", "name"), Carry.PARTLY),
 }

@@ -36,7 +36,7 @@ CONTEXT = [
 """`ex` is the prefix under which node-wot looks for the bits of a part."""
 
 carries: Carries = RESOLVED | {
-    **dict.fromkeys(("enum", "string", "write-only", "array", "name", "description", "functions"), Carry.WHOLE),
+    **dict.fromkeys(("enum", "string", "write-only", "name", "description", "functions"), Carry.WHOLE),
     **dict.fromkeys(("scale", "offset", "unit", "range", "sentinel", "special-value", "boolean"), Carry.PARTLY),
     **dict.fromkeys(("flags", "fields", "version", "write"), Carry.PARTLY),
 }

@@ -7,7 +7,7 @@ same bytes.
 from collections.abc import Iterator, Mapping, Sequence
 
 from regscribe.export.csv import carries as carries
-from regscribe.export.csv import rows
+from regscribe.export.csv import losses, rows
 from regscribe.export.device.options import CHOICE, MODEL, chosen, model_of
 from regscribe.export.xlsx.columns import Line
 from regscribe.export.xlsx.workbook import Sheet, workbook
@@ -25,11 +25,11 @@ def export(maps: Sequence[RegisterMap], options: Mapping[str, str]) -> Exported:
     sheets = [sheet for one in maps for sheet in _sheets(one, options)]
     titles = ", ".join(f"{one.title} ({one.id})" for one in maps)
     data, cut = workbook(sheets, titles)
-    losses = tuple(
+    shortened = [
         Loss(path, fact, Grade.LOST, f"cut after {length} characters: a cell holds no more", model)
         for model, path, fact, length in cut
-    )
-    return Exported({"": data}, losses)
+    ]
+    return Exported({"": data}, (*shortened, *losses(maps)))
 
 
 def _sheets(register_map: RegisterMap, options: Mapping[str, str]) -> Iterator[Sheet]:

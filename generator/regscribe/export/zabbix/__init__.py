@@ -19,8 +19,9 @@ summary = "a template of Zabbix 6.0 with items of agent 2"
 options = DEVICE_OPTIONS
 
 carries: Carries = RESOLVED | {
-    **dict.fromkeys(("scale", "offset", "unit", "flags", "fields", "boolean", "string"), Carry.WHOLE),
-    **dict.fromkeys(("padding", "array", "group", "name", "description"), Carry.WHOLE),
+    "boolean": Carry.PARTLY,
+    **dict.fromkeys(("scale", "offset", "unit", "flags", "fields", "string"), Carry.WHOLE),
+    **dict.fromkeys(("padding", "group", "name", "description"), Carry.WHOLE),
     **dict.fromkeys(("sentinel", "enum", "special-value", "valid"), Carry.PARTLY),
 }
 
@@ -51,7 +52,7 @@ def _refuses(point: Point, _: Request) -> str:
 
 
 VERIFIED = "zabbix-agent2 6.0.14 and its scripts with Node.js; the import by a server is not"
-TARGET = Target(name=name, carries=carries, fits=_fits, refuses=_refuses, verified=VERIFIED)
+TARGET = Target(name=name, carries=carries, fits=_fits, refuses=_refuses, verified=VERIFIED, truth_as_number=True)
 
 
 def export(maps: Sequence[RegisterMap], options: Mapping[str, str]) -> Exported:
