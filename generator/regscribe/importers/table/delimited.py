@@ -6,7 +6,7 @@ import re
 from collections import Counter
 from collections.abc import Iterator, Sequence
 
-from regscribe.importers.table.grid import MOST_CHARACTERS, Grid, Row, TableError, grid_of
+from regscribe.importers.table.grid import ALL_LINES, MOST_CHARACTERS, Grid, Lines, Row, TableError, grid_of
 from regscribe.importers.table.texts import decode
 
 NAMES = {",": "commas", ";": "semicolons", "\t": "tabs", "|": "bars"}
@@ -15,6 +15,12 @@ NAMES = {",": "commas", ";": "semicolons", "\t": "tabs", "|": "bars"}
 WORDS = {"comma": ",", "semicolon": ";", "tab": "\t", "\\t": "\t", "bar": "|", "pipe": "|", "blanks": " "}
 """Words for separators that a shell does not swallow."""
 
+MOST_ALIGNED = 60
+"""Columns of a table that is aligned by blanks and has empty cells."""
+
+Span = tuple[int, int, str]
+"""Where a cell begins and ends in its line, and its text."""
+
 SAMPLE = 200
 """Lines that are looked at to find the separator."""
 
@@ -22,14 +28,14 @@ GAP = re.compile(r"\S+(?:\s\S+)*")
 """A cell of a table that is aligned by blanks: words with one blank between them."""
 
 
-def read(data: bytes, name: str, *, encoding: str = "", delimiter: str = "") -> Grid:
+def read(data: bytes, name: str, *, encoding: str = "", delimiter: str = "", lines: Lines = ALL_LINES) -> Grid:
     """Read the table in a text; raises TableError for what is no text, broken quotes, and what is beyond bounds."""
     text, stated = decode(data, name, encoding)
     text = text.replace("\r\n", "\n").replace("\r", "\n")
     separator, before = _separator(text, delimiter)
     rows = _aligned(text) if separator == " " else _rows(text, separator, before, name)
     how = "aligned by two or more blanks" if separator == " " else f"separated by {NAMES.get(separator, separator)}"
-    return grid_of(name, rows, (f"{stated}; its cells are {how}",))
+    return grid_of(name, rows, (f"{stated}; its cells are {how}",), lines=lines)
 
 
 def _separator(text: str, wanted: str) -> tuple[str, int]:
@@ -71,7 +77,8 @@ def _rows(text: str, separator: str, before: int, name: str) -> Iterator[Row]:
     line = before + 1
     try:
         for cells in reader:
-            yield Row(line, f"line {line}", tuple(cells))
+            if cells:
+                yield Row(line, f"line {line}", tuple(cells))
             line = before + reader.line_num + 1
     except csv.Error as error:
         message = f"{name}:{line}: {_reason(error, body, line - before)}"
@@ -98,14 +105,23 @@ def _aligned(text: str) -> Iterator[Row]:
     found = [[(one.start(), one.end(), one[0]) for one in GAP.finditer(line)] for line in lines]
     columns = max(found, key=len, default=[])
     for line, cells in enumerate(found, 1):
-        row = [""] * len(columns)
-        for start, end, cell in cells:
-            at = min(range(len(columns)), key=lambda index: _distance(start, end, columns[index]))
-            row[at] = f"{row[at]} {cell}".strip()
-        texts = tuple(cell for _, _, cell in cells) if len(cells) == len(columns) else tuple(row)
-        yield Row(line, f"line {line}", texts)
+        if len(cells) != len(columns) > MOST_ALIGNED:
+            message = f"line {line} has {len(cells)} cells aligned by blanks and another line {len(columns)}: use tabs"
+            raise TableError(message, line)
+        texts = [cell for _, _, cell in cells] if len(cells) == len(columns) else _placed(cells, columns)
+        yield Row(line, f"line {line}", tuple(texts))
 
 
-def _distance(start: int, end: int, column: tuple[int, int, str]) -> int:
+def _placed(cells: Sequence[Span], columns: Sequence[Span]) -> list[str]:
+    """The cells of a line that has fewer of them than there are columns, each in its column."""
+    row = [""] * len(columns)
+    for start, end, cell in cells:
+        distances = [_distance(start, end, column) for column in columns]
+        at = distances.index(min(distances))
+        row[at] = f"{row[at]} {cell}".strip()
+    return row
+
+
+def _distance(start: int, end: int, column: Span) -> int:
     """Blanks between a cell and a column; below 0 where they overlap."""
     return max(column[0] - end, start - column[1])

@@ -78,7 +78,13 @@ class Grid:
         )
 
 
-def grid_of(name: str, rows: Iterable[Row], stated: Sequence[str] = (), findings: Sequence[Diagnostic] = ()) -> Grid:
+Lines = tuple[int, int]
+"""The first and the last row that are to be read."""
+
+ALL_LINES: Lines = 1, 1 << 31
+
+
+def grid_of(name: str, rows: Iterable[Row], stated: Sequence[str] = (), *, lines: Lines = ALL_LINES) -> Grid:
     """Collect the rows that have content, without blanks around cells and without characters that nobody sees.
 
     Raises TableError for what is beyond bounds.
@@ -86,6 +92,10 @@ def grid_of(name: str, rows: Iterable[Row], stated: Sequence[str] = (), findings
     kept: list[Row] = []
     cleaned = 0
     for row in rows:
+        if not lines[0] <= row.line <= lines[1]:
+            if row.line > lines[1]:
+                break
+            continue
         cells = tuple(map(_visible, row.cells))
         cleaned += sum(len(cell) < len(raw.strip()) for cell, raw in zip(cells, row.cells, strict=True))
         while cells and not cells[-1]:
@@ -95,7 +105,7 @@ def grid_of(name: str, rows: Iterable[Row], stated: Sequence[str] = (), findings
         _check(row, cells, len(kept), name)
         kept.append(replace(row, cells=cells))
     said = [f"characters that nobody sees are taken out of {cleaned} cells"] if cleaned else []
-    return Grid(name, tuple(kept), (*stated, *said), tuple(findings))
+    return Grid(name, tuple(kept), (*stated, *said))
 
 
 def _visible(text: str) -> str:
@@ -105,11 +115,7 @@ def _visible(text: str) -> str:
 
 def _check(row: Row, cells: Sequence[str], before: int, name: str) -> None:
     if before >= MOST_ROWS:
-        message = (
-            f"{name} has more than {MOST_ROWS} rows with content, up to {row.where}: no device has so many registers; "
-            "choose a part with --range, or split the list"
-        )
-        raise TableError(message, row.line)
+        raise too_many(name, row.where, row.line)
     if len(cells) > MOST_COLUMNS:
         message = f"{row.where} has {len(cells)} cells; a list of registers has at most {MOST_COLUMNS} columns"
         raise TableError(message, row.line)
@@ -120,6 +126,15 @@ def _check(row: Row, cells: Sequence[str], before: int, name: str) -> None:
             "may have: shorten it, or leave its column out"
         )
         raise TableError(message, row.line)
+
+
+def too_many(name: str, where: str, line: int) -> TableError:
+    """The error for a source with more rows than are read."""
+    return TableError(
+        f"{name} has more than {MOST_ROWS} rows with content, up to {where}: no device has so many registers; choose a "
+        "part with --range, or split the list",
+        line,
+    )
 
 
 def letters(column: int) -> str:

@@ -7,7 +7,7 @@ from xml.etree.ElementTree import Element
 
 from defusedxml.ElementTree import iterparse
 
-from regscribe.importers.table.grid import TableError, letters, number_of
+from regscribe.importers.table.grid import MOST_ROWS, Lines, TableError, letters, number_of, too_many
 
 MOST_LINES = 1_048_576
 """The last row of a sheet."""
@@ -35,13 +35,20 @@ class Structure:
     unvalued: list[str] = field(default_factory=list)
 
 
-def structure(part: IO[bytes], sheet: str) -> Structure:
-    """Read the XML of a sheet, piece by piece. Raises TableError for rows where no sheet has any."""
+def structure(part: IO[bytes], sheet: str, name: str, lines: Lines) -> Structure:
+    """Read the XML of a sheet, piece by piece; `lines` are those that count.
+
+    Raises TableError for rows where no sheet has any, and for more of them than are read.
+    """
     found = Structure()
+    filled = 0
     for element in _elements(part):
         kind = element.tag.rpartition("}")[2]
         if kind == "row":
-            _row(element, found, sheet)
+            number = _row(element, found, sheet)
+            filled += len(element) > 0 and lines[0] <= number <= lines[1] and _has_values(element)
+            if filled > MOST_ROWS:
+                raise too_many(name, f"sheet {sheet}, row {number}", number)
         elif kind == "mergeCell" and (area := area_of(element.get("ref", ""))):
             found.merged.append(area)
         elif kind == "col" and element.get("hidden") in {"1", "true"}:
@@ -67,7 +74,12 @@ def _elements(part: IO[bytes]) -> Iterator[Element]:
                 path[-1].remove(element)
 
 
-def _row(element: Element, found: Structure, sheet: str) -> None:
+def _has_values(element: Element) -> bool:
+    return any(child.tag.endswith(("}v", "}is")) for cell in element for child in cell)
+
+
+def _row(element: Element, found: Structure, sheet: str) -> int:
+    """Keep what a row says, and return its number."""
     number = element.get("r", "")
     if number.isdecimal() and int(number) > MOST_LINES:
         message = f"sheet {sheet} has a row {number}, and a sheet ends with row {MOST_LINES}: the workbook is broken"
@@ -78,6 +90,7 @@ def _row(element: Element, found: Structure, sheet: str) -> None:
         parts = {child.tag.rpartition("}")[2]: child.text for child in cell}
         if "f" in parts and not parts.get("v") and "is" not in parts:
             found.unvalued.append(cell.get("r", "?"))
+    return int(number) if number.isdecimal() else 0
 
 
 def area_of(text: str) -> Area | None:

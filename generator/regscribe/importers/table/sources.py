@@ -6,7 +6,7 @@ from dataclasses import replace
 from regscribe.importers.table.archive import is_workbook
 from regscribe.importers.table.choices import Choices
 from regscribe.importers.table.delimited import read as read_text
-from regscribe.importers.table.grid import Grid, Row, TableError
+from regscribe.importers.table.grid import ALL_LINES, Grid, Row, TableError
 from regscribe.importers.table.sheet_structure import Area
 
 PDF = b"%PDF-"
@@ -22,10 +22,11 @@ def is_pdf(data: bytes) -> bool:
 def grids_of(data: bytes, name: str, choices: Choices) -> tuple[list[Grid], Sequence[str]]:
     """Read the tables of a file, with what is to be said of how. Raises TableError."""
     stated: Sequence[str] = ()
+    lines = (choices.cells.top, choices.cells.bottom) if choices.cells is not None else ALL_LINES
     if is_workbook(data):
         from regscribe.importers.table.workbooks import read as read_workbook  # noqa: PLC0415 - openpyxl takes 200 ms
 
-        grids, stated = read_workbook(data, name, choices.sheets)
+        grids, stated = read_workbook(data, name, choices.sheets, lines)
         stated = [*stated, *(text for grid in grids for text in grid.stated)]
     elif is_pdf(data):
         from regscribe.importers.table.pdf_tables import read as read_pdf  # noqa: PLC0415 - an extra
@@ -33,7 +34,7 @@ def grids_of(data: bytes, name: str, choices: Choices) -> tuple[list[Grid], Sequ
         grids, stated = read_pdf(data, name, choices.pages, choices.area)
         stated = [*stated, *(text for grid in grids for text in grid.stated)]
     else:
-        grids = [read_text(data, name, encoding=choices.encoding, delimiter=choices.delimiter)]
+        grids = [read_text(data, name, encoding=choices.encoding, delimiter=choices.delimiter, lines=lines)]
         stated = grids[0].stated
     if choices.cells is not None:
         grids = [cut(grid, choices.cells) for grid in grids]

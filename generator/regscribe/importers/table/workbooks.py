@@ -10,7 +10,7 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 from regscribe.importers.table.archive import opened
-from regscribe.importers.table.grid import Grid, Row, TableError, grid_of, letters
+from regscribe.importers.table.grid import ALL_LINES, Grid, Lines, Row, TableError, grid_of, letters
 from regscribe.importers.table.sheet_findings import findings_of
 from regscribe.importers.table.sheet_structure import Area, structure
 
@@ -33,7 +33,7 @@ class Sheet:
     part: str
 
 
-def read(data: bytes, name: str, wanted: Sequence[str] = ()) -> tuple[list[Grid], list[str]]:
+def read(data: bytes, name: str, wanted: Sequence[str] = (), lines: Lines = ALL_LINES) -> tuple[list[Grid], list[str]]:
     """Read the sheets that are wanted, by name or number, or all visible ones, and say which were passed over.
 
     Raises TableError for what is no workbook, is protected, or is beyond bounds, and for sheets that are not there.
@@ -45,7 +45,7 @@ def read(data: bytes, name: str, wanted: Sequence[str] = ()) -> tuple[list[Grid]
         reader.read()
         sheets = _sheets(reader)
         chosen = _chosen(sheets, wanted, name)
-        grids = [_grid(reader, archive, sheet, name) for sheet in chosen]
+        grids = [_grid(reader, archive, sheet, name, lines) for sheet in chosen]
     hidden = [sheet.name for sheet in sheets if sheet.hidden and sheet not in chosen]
     return grids, [f"sheet {sheet} is hidden and was not read; --sheet reads it" for sheet in hidden]
 
@@ -99,11 +99,11 @@ def _names(sheets: Iterable[Sheet]) -> str:
     return ", ".join(f"`{sheet.name}`" for sheet in sheets)
 
 
-def _grid(reader: "ExcelReader", archive: zipfile.ZipFile, sheet: Sheet, name: str) -> Grid:
+def _grid(reader: "ExcelReader", archive: zipfile.ZipFile, sheet: Sheet, name: str, lines: Lines) -> Grid:
     with archive.open(sheet.part) as part:
-        said = structure(part, sheet.name)
+        said = structure(part, sheet.name, name, lines)
     rows = _Filled(said.merged).rows(_rows(reader, sheet, frozenset(said.unvalued)))
-    grid = grid_of(name, rows)
+    grid = grid_of(name, rows, lines=lines)
     return Grid(name, grid.rows, grid.stated, findings_of(grid, said, sheet.name))
 
 

@@ -8,7 +8,7 @@ from typing import Any
 import pytest
 
 from regscribe.importers import table
-from regscribe.importers.table import archive, grid, sources, workbooks
+from regscribe.importers.table import archive, grid, sheet_structure, sources, workbooks
 from regscribe.importers.table.choices import choices
 from regscribe.importers.table.grid import Grid, TableError
 from regscribe.plugins import Likeness
@@ -113,6 +113,24 @@ def test_more_rows_than_any_device_has_are_refused_with_the_number_and_what_to_d
         "list.csv has more than 20000 rows with content, up to line 20001: no device has so many registers; choose a "
         "part with --range, or split the list"
     )
+
+
+def test_of_a_list_that_is_too_long_a_part_can_be_read(
+    workbook: Callable[..., bytes], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(grid, "MOST_ROWS", 3)
+    monkeypatch.setattr(sheet_structure, "MOST_ROWS", 3)
+    rows = [["Address", "Name"], *([number, "x"] for number in range(5))]
+    text = "\n".join(f"{address},{name}" for address, name in rows).encode()
+    for data, name in ((text, "list.csv"), (workbook(Registers=rows), "list.xlsx")):
+        assert "more than 3 rows with content, up to " in refusal(data, name)
+        (found,) = grids(data, name, range="4:6")
+        assert [row.cells[0] for row in found.rows] == ["2", "3", "4"]
+
+
+def test_a_wide_table_that_is_aligned_by_blanks_is_refused_where_cells_are_empty() -> None:
+    text = "  ".join(f"c{number}" for number in range(70)) + "\na  b  c\n"
+    assert "line 2 has 3 cells aligned by blanks and another line 70: use tabs" in refusal(text.encode())
 
 
 def test_a_range_of_lines_and_columns_is_read_alone() -> None:
