@@ -222,3 +222,9 @@ def test_texts_of_the_map_stay_texts(resources: Resources) -> None:
 def test_a_word_that_is_neither_0_nor_1_is_told_as_it_is(export: Export, small: Small, lost: Lost) -> None:
     made = export("edgex", small("at: 0, name: A, type: uint16, kind: boolean, access: r"))
     assert ("a", "truth-of-words", "WRONG") in lost(made)
+
+
+def test_a_coil_with_a_scale_is_left_out(export: Export, small: Small) -> None:
+    text = small("at: 0, name: A", "at: 3, name: C, space: coil, kind: number, multiply: 10")
+    (loss,) = [one for one in export("edgex", text).losses if one.fact == "register"]
+    assert (loss.register, loss.done) == ("c", "left out: a bit has no scale")

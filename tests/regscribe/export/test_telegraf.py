@@ -214,3 +214,9 @@ def test_what_it_cannot_say_is_told(export: Export, small: Small, lost: Lost) ->
 def test_a_word_that_is_neither_0_nor_1_is_told_as_it_is(export: Export, small: Small, lost: Lost) -> None:
     made = export("telegraf", small("at: 0, name: A, type: uint16, kind: boolean, access: r"), at=AT)
     assert ("a", "truth-of-words", "LOST") in lost(made)
+
+
+def test_a_coil_with_a_scale_is_scaled_by_the_processor(toml: Callable[..., dict[str, Any]]) -> None:
+    made = toml("at: 3, name: C, space: coil, kind: number, multiply: 0.1, add: 2")
+    (processor,) = made["processors"]["scale"]
+    assert processor["scaling"] == [{"factor": 0.1, "offset": 2.0, "fields": ["c"]}]

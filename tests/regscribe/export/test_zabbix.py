@@ -180,3 +180,8 @@ def test_words_with_too_many_bits_are_left_out(export: Export, small: Small) -> 
 def test_zabbix_asks_once_a_day_at_least(export: Export, small: Small) -> None:
     with pytest.raises(OptionError, match="86400"):
         export("zabbix", small("at: 0, name: A"), at=AT, every="86401")
+
+
+def test_a_coil_with_a_scale_is_a_float(item: Template) -> None:
+    made = item("at: 3, name: C, space: coil, kind: number, multiply: 0.1")
+    assert (made["value_type"], made["preprocessing"][0]["parameters"]) == ("FLOAT", ["0.1"])

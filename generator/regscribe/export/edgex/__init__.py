@@ -46,6 +46,8 @@ def _refuses(point: Point, request: Request) -> str:
         return f"its text is {form.encoding}{', one byte in a register' * bool(form.per_register)}: it must be UTF-8"
     if wire.type is WireType.STRING and point.words > most:
         return f"it has {point.words} words, and a text has {most} at most"
+    if point.is_scaled and wire.space.is_bits:
+        return "a bit has no scale"
     if point.is_scaled and wire.type.is_integer and wire.type not in RAW_TYPES and not _is_whole(point):
         return f"a scaled {wire.type.value} has no raw type: there are int16, uint16 and int32"
     return ""

@@ -21,17 +21,20 @@ EXACT_BITS = 53
 
 @dataclass(frozen=True, slots=True)
 class _Fields:
-    """Makes the fields of a device; collects which of them need a number added, as the plug-in itself adds none."""
+    """Makes the fields of a device; collects the `further` factor and summand where the plug-in has none."""
 
     device: Device
     names: Names = field(default_factory=Names)
-    offsets: dict[Fraction, list[str]] = field(default_factory=dict)
+    further: dict[tuple[Fraction, Fraction], list[str]] = field(default_factory=dict)
 
     def of(self, point: Point) -> Iterator[Field]:
         """Yield the fields of a point: its number or text, and each of its flags."""
         start = {"register": _quoted(SPACES[point.wire.space]), "address": str(point.address)}
         if point.wire.space.is_bits:
-            yield start | {"name": _quoted(self.names.give(point.id))}
+            name = self.names.give(point.id)
+            if point.is_scaled:
+                self.further.setdefault((point.slope, point.offset), []).append(name)
+            yield start | {"name": _quoted(name)}
             return
         flags = [one for one in point.fields if one.is_flag]
         if len(flags) < len(point.fields) or not point.fields:
@@ -43,7 +46,7 @@ class _Fields:
     def _value(self, point: Point) -> Field:
         name = self.names.give(point.id)
         if point.offset:
-            self.offsets.setdefault(point.offset, []).append(name)
+            self.further.setdefault((Fraction(1), point.offset), []).append(name)
         kind = {"name": _quoted(name), "type": _quoted(byte_type(point.wire) or TYPES[point.wire.type])}
         return kind | _scale(self.device, point) | _length(point)
 
@@ -59,7 +62,7 @@ def configuration(device: Device) -> str:
     for location, points in by_location.items():
         if points:
             lines += ["", *_connection(device, location), *_blocks(device, points, fields)]
-    return "\n".join([*lines, *_offsets(device, fields.offsets)]) + "\n"
+    return "\n".join([*lines, *_processor(device, fields.further)]) + "\n"
 
 
 def _connection(device: Device, location: str) -> Iterator[str]:
@@ -152,16 +155,16 @@ def _scale(device: Device, point: Point) -> Field:
     return {} if point.slope == 1 else {"scale": _float(point.slope), "output": '"FLOAT64"'}
 
 
-def _offsets(device: Device, offsets: dict[Fraction, list[str]]) -> Iterator[str]:
-    """Yield the processor that adds numbers to fields of this measurement."""
-    if not offsets:
+def _processor(device: Device, further: dict[tuple[Fraction, Fraction], list[str]]) -> Iterator[str]:
+    """Yield the processor that scales fields of this measurement and adds numbers to them."""
+    if not further:
         return
     yield ""
     yield "[[processors.scale]]"
     yield f"  namepass = [{_quoted(device.model.class_name)}]"
-    for offset, names in offsets.items():
+    for (factor, offset), names in further.items():
         yield "  [[processors.scale.scaling]]"
-        yield "    factor = 1.0"
+        yield f"    factor = {_float(factor)}"
         yield f"    offset = {_float(offset)}"
         yield f"    fields = [{', '.join(map(_quoted, names))}]"
 

@@ -93,7 +93,7 @@ def _reading(point: Point) -> tuple[str, int, str]:
 
 def _value_type(point: Point) -> str:
     plain = not point.is_scaled and point.wire.type.is_integer and point.wire.type.minimum >= 0
-    return UNSIGNED if plain or point.register.kind in PATTERNS or point.wire.space.is_bits else FLOAT
+    return UNSIGNED if plain or point.register.kind in PATTERNS else FLOAT
 
 
 def _steps(point: Point) -> Iterator[tuple[str, str]]:
