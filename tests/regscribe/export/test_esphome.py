@@ -303,6 +303,13 @@ def test_a_truth_value_of_a_word_is_its_lowest_bit(one: Made, losses: Lost) -> N
     assert losses(word)["truth-of-words"].startswith("WRONG")
 
 
+def test_a_version_is_the_number_that_packs_it_and_told_so(one: Made, losses: Lost) -> None:
+    version = "at: 0, name: A, type: uint16, version: n.n.n, access: rw"
+    assert one("sensor", version)["value_type"] == "U_WORD"
+    assert losses(version)["version"].startswith("LOST")
+    assert losses(version)["write"].startswith("LOST: read only")
+
+
 def test_a_text_is_read_by_its_bytes(one: Made) -> None:
     found = one("text_sensor", f"at: 3, name: Text, type: string, length: 4, {READ}")
     assert (found["register_count"], found["response_size"], found["raw_encode"]) == (4, 8, "ANSI")

@@ -232,7 +232,6 @@ def test_a_text_has_its_registers_and_what_fills_it_up_is_told(sensor: Hub, loss
         ("type: string, length: 4, word_order: little", "does not read string"),
         ("type: string, length: 128", "255 characters"),
         ("type: datetime, layout: Y M D h m s", "it is a datetime"),
-        ("type: uint16, version: n.n.n", "it is a version"),
         ("type: bcd16", "does not read bcd16"),
         ("space: file, file: 4", "file space"),
     ],
@@ -299,6 +298,12 @@ def test_codes_and_bits_are_numbers_and_their_labels_are_told(sensor: Hub, losse
     assert sensor("at: 0, name: A, type: uint16, enum: {0: off, 1: on}")["precision"] == 0
     assert losses("at: 0, name: A, type: uint16, enum: {0: off, 1: on}")["enum"].startswith("LOST")
     assert losses("at: 0, name: A, type: uint16, flags: {0: run}")["flags"].startswith("LOST")
+
+
+def test_a_version_is_the_number_that_packs_it_and_told_so(sensor: Hub, losses: Lost) -> None:
+    version = "at: 0, name: A, type: uint16, version: n.n.n, access: r"
+    assert (sensor(version)["data_type"], sensor(version)["precision"]) == ("uint16", 0)
+    assert losses(version)["version"] == "LOST: shown as the number that packs its 3 digits"
 
 
 def test_names_that_are_the_same_have_the_path_behind(hub: Hub) -> None:

@@ -191,7 +191,12 @@ def test_one_register_is_written_by_the_function_that_there_is(one: Made) -> Non
 
 @pytest.mark.parametrize(
     "more",
-    ["danger: It starts.", "writable: {when: {mode: 1}, reason: only then}", "type: string, length: 2"],
+    [
+        "danger: It starts.",
+        "writable: {when: {mode: 1}, reason: only then}",
+        "type: string, length: 2",
+        "type: uint16, version: n.n.n",
+    ],
 )
 def test_a_write_that_is_not_free_is_read_only_and_told(channels: Made, losses: Lost, more: str) -> None:
     registers = f"at: 9, name: Mode, type: uint16, {READ}", f"at: 0, name: A, access: rw, {more}"
@@ -255,7 +260,7 @@ def test_a_text_has_so_many_registers(one: Made, text: str, form: str, order: st
     [
         ("type: float16", "does not read float16"),
         ("type: string, length: 4, text: utf-16", "UTF-8"),
-        ("type: uint16, version: n.n.n", "it is a version"),
+        ("type: datetime, layout: Y M D h m s", "it is a datetime"),
     ],
 )
 def test_what_it_cannot_read_is_left_out_with_the_reason(export: Export, small: Small, words: str, why: str) -> None:

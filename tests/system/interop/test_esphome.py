@@ -163,8 +163,8 @@ def shown(held: Held, name: str, states: Mapping[str, str]) -> bool:
     state = states[name]
     if held.fault:
         return state.startswith("nan")
-    if isinstance(held.value, str):
-        return state == f"'{held.value}'"
+    if isinstance(held.value, str):  # a version is shown as the number that packs it
+        return state == (str(held.words[0]) if name == "Firmware" else f"'{held.value}'")
     if state in {"ON", "OFF"}:
         return (state == "ON") is bool(held.number)
     if held.member and not state[:1].isdigit() and state[:1] != "-":

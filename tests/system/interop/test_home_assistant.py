@@ -58,6 +58,8 @@ def agree(state: str, stage: Stage, path: str, lost: set[str]) -> bool:
     held, said = stage.held[path], stage.driver[path]
     if held.fault:
         return isinstance(said, SensorFault) and state == "unavailable"
+    if "version" in lost:
+        return state == str(held.words[0])
     if isinstance(held.value, str):
         return state.rstrip("\0") == held.value
     if state in {"on", "off"}:

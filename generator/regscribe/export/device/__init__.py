@@ -108,6 +108,12 @@ class Device:
         state = "for one state of the device: the defaults of the map and what was stated beside them"
         return safe(what), state, f"{self.target.name}: {self.target.remark}"
 
+    def lose_version(self, point: Point) -> None:
+        """Tell that a version is shown as a number, if it is one."""
+        if point.register.kind is Kind.VERSION:
+            done = f"shown as the number that packs its {point.register.version_digits} digits"
+            self.lose(point.register, "version", Grade.LOST, done)
+
     def lose(self, register: Register | str, fact: str, grade: Grade, done: str) -> None:
         """Tell a loss, by its fact or code, of a register (by itself or its path; empty: of the whole device)."""
         if fact not in CODES:

@@ -19,7 +19,7 @@ options = (*(one for one in DEVICE_OPTIONS if one.name != "at"), BUS)
 
 carries: Carries = RESOLVED | {
     **dict.fromkeys(("scale", "offset", "unit", "flags", "string", "limits"), Carry.WHOLE),
-    **dict.fromkeys(("sentinel", "enum", "fields", "boolean", "name"), Carry.PARTLY),
+    **dict.fromkeys(("sentinel", "enum", "fields", "boolean", "version", "name"), Carry.PARTLY),
     **dict.fromkeys(("write", "range", "pause"), Carry.PARTLY),
 }
 

@@ -43,6 +43,7 @@ def _type(point: Point) -> Keys:
 
 def sensor(device: Device, point: Point) -> Item:
     """A number that is read."""
+    device.lose_version(point)
     lose_digits(device, point)
     lose_faults(device, point)
     faults: list[Keys] = [

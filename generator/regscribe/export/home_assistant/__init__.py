@@ -25,7 +25,7 @@ options = DEVICE_OPTIONS
 carries: Carries = RESOLVED | {
     **dict.fromkeys(("scale", "offset", "unit", "string", "name", "array"), Carry.WHOLE),
     **dict.fromkeys(("limits", "pause"), Carry.WHOLE),
-    **dict.fromkeys(("boolean", "sentinel", "write", "settle", "poll"), Carry.PARTLY),
+    **dict.fromkeys(("boolean", "version", "sentinel", "write", "settle", "poll"), Carry.PARTLY),
 }
 
 USUAL_TIMEOUT = 3

@@ -38,6 +38,7 @@ def sensor(device: Device, point: Point) -> Entity:
         )
     if point.wire.type is WireType.STRING:
         return place | {"data_type": TYPES[WireType.STRING], "count": point.words} | _swap(point)
+    device.lose_version(point)
     return place | _type(point) | _scale(device, point) | _nan(device, point) | _unit(point)
 
 

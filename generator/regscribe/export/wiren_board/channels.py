@@ -65,6 +65,8 @@ def _place(device: Device, point: Point) -> Channel:
 def _why_read_only(device: Device, point: Point) -> str:
     if point.wire.type is WireType.STRING and not point.wire.space.is_bits:
         return "the service writes a shorter text over the beginning of a longer one"
+    if point.register.kind is Kind.VERSION:
+        return "a version is not written as a number"
     why = obstacle(point, device.register_map.protocol)
     if not why and point.wire.space is Space.COIL and write_function(point, device.register_map.protocol) != COIL:
         return "the service writes a coil by function 5 alone"
@@ -90,6 +92,7 @@ def _value(device: Device, point: Point) -> Channel:
     if kind is Kind.BOOLEAN:
         _lose_faults(device, point, "fault words are shown as they are", None)
         return {"type": "switch", "format": TYPES[wire.type], "on_value": "1", "off_value": "0"}
+    device.lose_version(point)
     _lose_digits(device, point)
     return {
         "type": "value",
