@@ -112,11 +112,30 @@ def test_a_register_that_is_renamed_and_changed_is_not_guessed(edited: Any) -> N
 
 
 def test_two_alike_registers_that_go_are_not_taken_for_two_that_come(bench: Any) -> None:
-    one = BASE.replace("      - {at: 22, name: Bank", "@      - {at: 22, name: Bank")
-    old = one.replace("@", "      - {at: 30, name: A}\n      - {at: 31, name: B}\n")
-    new = one.replace("@", "      - {at: 32, name: C}\n      - {at: 33, name: D}\n")
-    ids = sorted(one.rule.id for one in bench.compared(old, new).changes)
-    assert ids == ["RS0740", "RS0740", "RS0741", "RS0741"]
+    def version(*registers: tuple[int, str]) -> str:
+        lines = [f"      - {{at: {at}, id: {name}, name: Spare}}\n" for at, name in registers]
+        return BASE.replace("      - {at: 22, name: Bank", f"{''.join(lines)}      - {{at: 22, name: Bank")
+
+    found = bench.compared(version((30, "a"), (31, "b")), version((32, "c"), (33, "d"))).changes
+    assert sorted(one.rule.id for one in found) == ["RS0740", "RS0740", "RS0741", "RS0741"]
+    (moved, renamed) = bench.compared(version((30, "a")), version((32, "c"))).changes
+    assert (moved.rule.id, renamed.rule.id) == ("RS0701", "RS0742")
+
+
+def test_models_under_other_names_are_found_by_their_registers(edited: Any) -> None:
+    names = "      - {at: 23, name: Fan, models: [M2]}\n"
+    found = edited(
+        "{M1: {}, M2: {",
+        "{N1: {}, N2: {",
+        "[M1, M2]",
+        "[N1, N2]",
+        "model: M1",
+        "model: N1",
+        names,
+        names.replace("M2", "N2"),
+    )
+    renamed = [(one.before, one.after) for one in found if one.rule.id == "RS0747"]
+    assert sorted(renamed) == [("M1", "N1"), ("M2", "N2")]
 
 
 def test_registers_that_swap_their_addresses_both_moved(edited: Any) -> None:
