@@ -8,7 +8,7 @@ from dataclasses import replace
 from functools import partial
 from typing import Any
 
-from regscribe.dialects import read_back
+from regscribe.dialects import ABCD, DCBA, read_back
 from regscribe.dialects.modbus_exporter import BOOL, ENDIANNESS, FUNCTIONS, TYPES
 from regscribe.draft import Draft
 from regscribe.importers.shared.document import Collecting, chosen, has, reads, text_of
@@ -82,7 +82,8 @@ def _metric(name: str, place: Span, keys: Keys) -> Point:
     factor = keys.scale("factor")
     if factor == 0:
         refuse("factor", "factor 0")
-    return replace(point, type=wire, orders=orders, multiply=factor)
+    turned = ABCD if wire.words == 1 and orders != DCBA else orders  # only `little` turns the bytes of one word
+    return replace(point, type=wire, orders=turned, multiply=factor)
 
 
 def _place(keys: Keys) -> tuple[Space, int]:

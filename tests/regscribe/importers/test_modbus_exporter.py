@@ -47,6 +47,15 @@ def test_values_by_endianness_and_factor(imported: Import) -> None:
     assert found.bits("word_holding_40") == {"alarm": (9, 9), "run": (0, 0)}
 
 
+@pytest.mark.parametrize(("endianness", "value"), [("big", 1), ("mixed", 1), ("yolo", 1), ("little", 256)])
+def test_of_one_word_only_little_turns_the_bytes(imported: Import, endianness: str, value: int) -> None:
+    module = MODULE.replace(
+        'dataType: int16, factor: 0.5, labels: {phase: "2"}',
+        f'dataType: uint16, endianness: {endianness}, labels: {{phase: "2"}}',
+    )
+    assert imported("modbus-exporter", module).value("power_2", 0x0001) == value
+
+
 def test_what_it_cannot_mean_is_left_out(imported: Import) -> None:
     assert {*imported("modbus-exporter", MODULE).left_out} == {"nowhere", "half", "naught"}
 
