@@ -31,7 +31,7 @@ test-wire: $(INSTALLED) ## let clients by others talk to the simulated devices; 
 
 test-interop: $(INSTALLED) ## let the programs that exports are for read a simulated device; installs them (pip, npm, Debian packages)
 	$(BIN)/python tests/system/interop/install.py
-	$(BIN)/pytest -q -m interop tests/system/interop
+	$(BIN)/pytest -q -n 2 --dist loadfile -m interop tests/system/interop
 
 test-versions: ## run the tests of runtime and drivers with the oldest and newest pymodbus, on every Python that is here
 	$(PYTHON) tests/repository/versions.py

@@ -1,14 +1,17 @@
 """Before others are asked: the device holds the words that were written by hand, and our driver reads their values."""
 
+import re
 import socket
 import struct
 from fractions import Fraction
+from pathlib import Path
 
 import pytest
 
 from regscribe.model import Space
 from regscribe_runtime import SensorFault
 
+from .install import CONSUMERS
 from .stage import UNIT, Held, Stage
 
 FUNCTIONS = {Space.COIL: 1, Space.DISCRETE: 2, Space.HOLDING: 3, Space.INPUT: 4}
@@ -53,3 +56,11 @@ def agree(held: Held, read: object) -> bool:
 @pytest.mark.parametrize("form", ["csv", "json", "collectd", "telegraf", "home-assistant", "esphome", "wiren-board"])
 def test_the_device_can_be_exported(stage: Stage, form: str) -> None:
     assert stage.text(form)
+
+
+def test_every_program_that_a_test_is_marked_with_can_be_installed() -> None:
+    files = sorted(Path(__file__).parent.glob("test_*.py"))
+    marked = {
+        name for file in files for name in re.findall(r'mark\.interop\("(.+?)"\)', file.read_text(encoding="utf-8"))
+    }
+    assert marked == {one.name for one in CONSUMERS}

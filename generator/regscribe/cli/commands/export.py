@@ -1,6 +1,5 @@
 """`regscribe export`: what maps say in the form of an exporter, a plug-in with options of its own."""
 
-import sys
 from collections.abc import Mapping
 from pathlib import Path
 from typing import Any
@@ -11,7 +10,7 @@ from regscribe import plugins
 from regscribe.cli.shared.compiled_maps import compiled_maps
 from regscribe.cli.shared.loss_report import FORMS, report_of
 from regscribe.cli.shared.map_arguments import find_maps
-from regscribe.cli.shared.output import raised_as, tell, warn
+from regscribe.cli.shared.output import raised_as, tell, tell_bytes, warn
 from regscribe.cli.shared.plugin_options import PluginCommand, own_options
 from regscribe.emit.write import WriteError, write
 from regscribe.files import FileError, save
@@ -104,8 +103,5 @@ def _write_folder(form: str, files: Mapping[str, str | bytes], out: Path) -> Non
 def _print(form: str, one: str | bytes) -> None:
     if isinstance(one, str):
         tell(one)
-        return
-    if sys.stdout.isatty():
-        message = f"the format {form} is no text: name a file with -o"
-        raise OptionError(message)
-    sys.stdout.buffer.write(one)
+    else:
+        tell_bytes(one, f"the format {form}")

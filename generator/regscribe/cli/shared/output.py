@@ -33,6 +33,13 @@ def tell(text: str) -> None:
     sys.stdout.write(tame(text))
 
 
+def tell_bytes(content: bytes, what: str) -> None:
+    """Write what is no text to standard output as it is. Raises click.UsageError on a terminal, which would obey it."""
+    if sys.stdout.isatty():
+        refuse(f"{what} is no text: name a file with -o")
+    sys.stdout.buffer.write(content)
+
+
 def warn(text: str) -> None:
     """Write to standard error, with control characters spelled out."""
     sys.stderr.write(tame(text))
