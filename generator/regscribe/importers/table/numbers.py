@@ -4,10 +4,11 @@ from fractions import Fraction
 
 from regscribe.draft.numbers import plain, unscaled
 from regscribe.importers.table.cells import Unclear
+from regscribe.importers.table.cells.doubts import against_type
 from regscribe.importers.table.cells.orders import order_in
 from regscribe.importers.table.cells.ranges import Limits, Settled, parse_number
 from regscribe.importers.table.cells.scale_cells import scale_register
-from regscribe.importers.table.cells.scale_words import scale_in
+from regscribe.importers.table.cells.scale_words import scale_in, scale_in_name
 from regscribe.importers.table.cells.scales import PLAIN, Scale, parse_offset
 from regscribe.importers.table.cells.types import TypeCell, parse_order
 from regscribe.importers.table.cells.units import UnitCell, may_scale, parse_unit
@@ -17,6 +18,8 @@ from regscribe.importers.table.whole import Whole
 from regscribe.model import WireType
 from regscribe_runtime.values.octets import KINDS
 from regscribe_runtime.values.wire_types import Order
+
+UNCLEAR_TYPE = "type-unclear"
 
 MOMENTS = frozenset({WireType.DATETIME, WireType.DATE, WireType.TIME})
 ONE_OF_WORDS = frozenset({WireType.UINT8, WireType.INT8})
@@ -32,8 +35,7 @@ def add_type(making: Making, whole: Whole, index: int, choices: Choices, *, code
         return
     found = whole.types[index]
     if isinstance(found, Unclear):
-        msg = "type-unclear"
-        raise LeftOutError(msg, found.message)
+        raise LeftOutError(UNCLEAR_TYPE, found.message)
     making.type = found = found or TypeCell()
     if found.type is None and found.signed is not None and found.words <= 1:
         making.type = found = TypeCell(
@@ -43,6 +45,8 @@ def add_type(making: Making, whole: Whole, index: int, choices: Choices, *, code
         making.type = found = TypeCell(type=WireType.UINT16, words=1, kind="boolean")
     if found.type is None:
         _default_type(making, found, choices, coded=coded)
+    if not coded and (doubt := against_type(making.item["description"], making.wire)):
+        raise LeftOutError(UNCLEAR_TYPE, doubt.message)
     _check_type(making)
     _add_orders(making, whole, choices)
 
@@ -163,7 +167,7 @@ def _scales(making: Making, whole: Whole, index: int) -> list[Scale | Unclear]:
     if isinstance(unit, Unclear) and may_scale(text):
         said.append(unit)
     if all(one is None for one in said) and not making.wire.is_float:
-        said.append(scale_in(making.item["description"]))
+        said += [scale_in(making.item["description"]), scale_in_name(making.item["name"])]
     return [one for one in said if one is not None]
 
 

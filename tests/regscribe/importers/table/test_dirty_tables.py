@@ -240,3 +240,34 @@ def test_the_name_of_a_scale_factor_is_the_register_that_holds_it(imported: Impo
     assert "name: A, access: r, exponent: a_sf, unit: A" in found.text
     assert found.codes("W") == ["scale-unclear"]  # the table has no register W_SF
     assert found.value("wh", 0, 1500) == Fraction(15, 10)
+
+
+CONTRARY = """\
+Address,Name,Type,Unit,Range,Access,Description
+0,Voltage (0.1 V),U16,,,R,
+1,Current (x0.01A),U16,A,,R,
+2,Power (*10),U16,W,,R,
+3,Angle,WORD,,,R,signed
+4,Temperature,U16,°C,-50..150,R,
+5,Date,UINT,,,R,packed BCD
+6,Speed (motor 2),U16,rpm,0..3000,R,unsigned
+7,Offset,S16,,-50..150,R,signed
+"""
+
+
+def test_a_scale_in_brackets_behind_a_name_counts(imported: Import) -> None:
+    found = imported("table", CONTRARY)
+    assert found.value("voltage_0_1_v", 2301) == Fraction(2301, 10)
+    assert "unit: V" in found.text
+    assert found.value("current_x0_01a", 2301) == Fraction(2301, 100)
+    assert found.codes("Power (*10)") == ["scale-unclear"]
+    assert found.value("speed_motor_2", 1500) == 1500
+
+
+def test_a_remark_or_a_range_against_the_type_leaves_the_row_out(imported: Import) -> None:
+    found = imported("table", CONTRARY)
+    assert list(found.left_out) == ["Angle", "Temperature", "Date"]
+    assert "`signed`" in found.left_out["Angle"]
+    assert "begins at -50" in found.left_out["Temperature"]
+    assert "`BCD`" in found.left_out["Date"]
+    assert found.value("offset", 0xFFFF) == -1

@@ -200,9 +200,10 @@ def _mixed(with_region: Sequence[Printed], others: Sequence[Printed]) -> Rule | 
         return None
 
     def unclear(one: Printed) -> str:
-        if not _has_region(one) or one.digits.startswith("0"):
+        if not is_plain(one) or one.digits.startswith("0"):
             return ""
-        return f"has the digit of a space, or is a plain address: others are as low as {min(numbers)}"
+        other = f"others are as low as {min(numbers)}" if _has_region(one) else f"others are {with_region[0].digits}"
+        return f"may count in its space or be a plain address: {other} (pass the base modicon or 0)"
 
     base, why, assumed = _base(numbers, "", set())
     return Rule(evidence=why, base=base, assumed=assumed, unclear=unclear)

@@ -6,6 +6,7 @@ from regscribe.importers.table.cells import Unclear, quoted
 from regscribe.importers.table.cells.factors import Scale
 from regscribe.importers.table.cells.numbers import NUMBER, clean
 from regscribe.importers.table.cells.scale_cells import bare_number, parse_scale
+from regscribe.importers.table.cells.units import UnitCell, may_scale, parse_unit
 
 _WORDS = r"scale[ds]?|scaling|factor|gain|resolution|multipl\w+|divid\w+|divisor|faktor|skalier\w+|aufl\u00f6sung"
 _TALK = re.compile(
@@ -17,6 +18,24 @@ _TALK = re.compile(
     re.IGNORECASE,
 )
 """What people say of a scale in prose."""
+
+
+_IN_BRACKETS = re.compile(r"[(\[\uff08]\s*([^()\[\]\uff08\uff09]{1,24})\s*[)\]\uff09]\s*$")
+
+
+def scale_in_name(name: str) -> Scale | Unclear | None:
+    """The scale in brackets behind a name (`Voltage (0.1 V)`); Unclear if a name speaks of one otherwise."""
+    plain = clean(name)
+    if (found := _IN_BRACKETS.search(plain)) and re.search(r"[0-9]", found[1]):
+        unit = parse_unit(found[1])
+        if isinstance(unit, UnitCell) and unit.known and unit.factor is not None:
+            return Scale(unit.factor, unit=unit.symbol)
+        if may_scale(found[1]) and _FACTOR.search(found[1]):
+            return Unclear(f"the name {quoted(name)} may say a scale")
+    return None
+
+
+_FACTOR = re.compile(r"[x*\u00d7/]\s*1?0|0[.,][0-9]", re.IGNORECASE)
 
 
 def scale_in(text: str) -> Scale | Unclear | None:

@@ -52,10 +52,16 @@ def test_40000_shows_that_40001_is_no_number_of_a_space() -> None:
     assert wire(column("40000", "40001")) == [40000, 40001]
 
 
-def test_40001_beside_low_numbers_is_unclear_and_the_low_ones_are_read() -> None:
+def test_40001_beside_low_numbers_leaves_both_unclear() -> None:
     found = column("5", "40001")
-    assert wire(found) == [5, None]
+    assert wire(found) == [None, None]
+    assert "others are 40001" in reason(found, 0)
     assert "as low as 5" in reason(found, 1)
+    assert wire(column("5", "40001", base="0")) == [5, 40001]
+
+
+def test_a_zero_before_the_digits_is_that_of_coils() -> None:
+    assert wire(column("00005", "40001")) == [4, 0]
 
 
 def test_a_number_that_no_space_has_shows_plain_addresses() -> None:
