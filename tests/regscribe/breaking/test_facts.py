@@ -117,6 +117,7 @@ TOP: list[Case] = [
     ("steps: [{at: 7000, words: [85]}]", "steps: [{at: 7001, words: [85]}]", "requests", B, N),
     ("chain: chain, id: 101", "chain: chain, id: 103", "place in the chain", B, H),
     ("stride: 2\n        registers: [{set", "stride: 3\n        registers: [{set", "stride", B, N),
+    ("repeat: 1..4", "repeat: {from: 1, to: bank, most: 4}", "how many elements there are", H, H),
     ("repeat: 1..4", "repeat: 1..3", "number of elements", B, B),
     ("repeat: 1..4", "repeat: 0..3", "first index", N, B),
     ('source: "1"\n', 'source: "1"\n  accepts: {read_words: 60}\n', "limits that it goes beyond", H, N),

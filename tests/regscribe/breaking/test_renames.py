@@ -168,3 +168,17 @@ def test_what_else_differs_of_a_renamed_register_is_told(edited: Any) -> None:
 def test_another_name_of_the_same_id_is_a_text(edited: Any) -> None:
     found = edited("name: Offset", "id: offset, name: Offset of the sensor")
     assert told(found) == [("RS0773", ("offset",), '"Offset"', '"Offset of the sensor"')]
+
+
+def test_a_register_that_was_renamed_in_a_group_that_moved_is_found_where_it_moved_to(bench: Any) -> None:
+    old = BASE.replace("unit: V}]", "unit: V}, {at: 201, name: First, access: r}, {at: 202, name: Second, access: r}]")
+    new = old.replace("at: 200, name: Voltage", "at: 250, name: Voltage").replace(
+        "at: 201, name: First", "at: 251, name: One"
+    )
+    new = new.replace("at: 202, name: Second", "at: 252, name: Two")
+    found = bench.compared(old, new).changes
+    assert sorted(told(found)) == [
+        ("RS0701", ("voltage", "one", "two"), "holding 200 to 202", "holding 250 to 252 (each +50)"),
+        ("RS0742", ("one",), "first", "one"),
+        ("RS0742", ("two",), "second", "two"),
+    ]
