@@ -132,7 +132,7 @@ def _orders(of: Keys, wire: WireType) -> Orders:
 
 def _scaled(point: Point, value: Keys, *, whole_only: bool) -> Point:
     """The point with its part of the word, scale, offset and limits."""
-    part = _part(value, point)
+    part, factor = _part(value, point)
     multiply, add = value.scale("scale"), value.number("offset") or Fraction(0)
     base = value.number("base")
     if base not in {None, 0, 1}:
@@ -143,6 +143,7 @@ def _scaled(point: Point, value: Keys, *, whole_only: bool) -> Point:
         value.remarks.append(unclear_scale(why))
         multiply = None
     multiply = Fraction(1) if multiply == 0 else multiply
+    multiply = None if multiply is None else multiply * factor
     low, high = value.number("minimum"), value.number("maximum")
     value.drop("defaultValue", "what EdgeX writes where nothing is given, not what the device begins with")
     limits = {} if low is None or high is None else {"range": f"{show(low)}..{show(high)}"}
@@ -152,12 +153,15 @@ def _scaled(point: Point, value: Keys, *, whole_only: bool) -> Point:
     return replace(point, bits=part, multiply=multiply, add=add, more={**point.more, **limits})
 
 
-def _part(value: Keys, point: Point) -> tuple[int, int] | None:
-    """The bits that mask and shift leave: a negative shift goes to the right, by the lowest bit of the mask."""
+def _part(value: Keys, point: Point) -> tuple[tuple[int, int] | None, int]:
+    """The bits that mask and shift leave, and the factor of what is not shifted down to its lowest bit.
+
+    A positive shift goes to the right, as in EdgeX 2 and later; the first versions turned the sign around.
+    """
     mask, shift = value.whole("mask") or 0, value.whole("shift") or 0
     if not mask and not shift:
-        return None
-    low_high = bits_of(mask) if mask else (-shift, point.type.bits - 1)
-    if low_high is None or low_high[0] != -shift or point.type.minimum < 0 or point.type.is_float:
-        refuse("mask", f"mask {mask} and shift {shift} of {point.type} are not the bits of a part")
-    return low_high
+        return None, 1
+    found = bits_of(mask) if mask else (shift, point.type.bits - 1)
+    if found is None or shift not in {0, found[0]} or point.type.minimum < 0 or point.type.is_float:
+        refuse("mask", f"mask {mask} and shift {shift} of {point.type} are not a part moved down to its lowest bit")
+    return found, 1 if shift else 1 << found[0]

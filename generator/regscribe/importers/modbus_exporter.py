@@ -10,6 +10,7 @@ from typing import Any
 
 from regscribe.dialects import ABCD, DCBA, read_back
 from regscribe.dialects.modbus_exporter import BOOL, ENDIANNESS, FUNCTIONS, TYPES
+from regscribe.dialects.prometheus import BASE_UNITS
 from regscribe.draft import Draft
 from regscribe.importers.shared.document import Collecting, chosen, has, reads, text_of
 from regscribe.importers.shared.points import Point
@@ -26,6 +27,8 @@ options = (Option("module", "name of the module; needed where there are several.
 SPACES = read_back(FUNCTIONS)
 BY_TYPE = read_back(TYPES)
 BY_ENDIANNESS = read_back(ENDIANNESS)
+UNITS = {unit.suffix: symbol for symbol, unit in reversed([*BASE_UNITS.items()]) if unit.factor == 1}
+"""Base units by the ends of names, as Prometheus has them."""
 SHOWN = frozenset({"name", "metricType"})
 
 
@@ -50,6 +53,8 @@ def read(data: bytes, name: str, options: Mapping[str, str]) -> Draft:
     for metric in metrics.each if metrics else ():
         called = _called(metric)
         found.add(called, metric, partial(_metric, called, found.place(metric)), group="Metrics")
+    if any(isinstance(item, Point) and item.unit for item in found.items):
+        found.stated.append("units are those in which the names of metrics end, as Prometheus wants it")
     told = ", ".join(key for key in module.members or {} if key not in {"name", "metrics"})
     found.stated += [f"how the module polls is no fact of a map: {told}"] if told else []
     return found.draft(title=module.word("name"))
@@ -67,23 +72,30 @@ def _metric(name: str, place: Span, keys: Keys) -> Point:
     keys.taken.add("labels")
     described = keys.text("help")
     more: dict[str, Any] = {"description": described} if described and described != name else {}
-    point = Point(name=name, place=place, at=at, space=space, more=more)
+    point = Point(name=name, place=place, at=at, space=space, unit=_unit(keys.text("name")), more=more)
     told = keys.text("dataType")
     if space.is_bits:
         keys.taken |= {"bitOffset", "endianness"}
-        return replace(point, type=WireType.BIT)
+        return replace(point, type=WireType.BIT, unit="")
     orders = keys.choice("endianness", BY_ENDIANNESS, "big")
     if told == BOOL:
         bit = keys.whole("bitOffset")
         if bit is None:
             refuse("bitOffset", "a bool has no bitOffset")
-        return replace(point, bits=(bit, bit))
+        return replace(point, bits=(bit, bit), unit="")
     wire = keys.choice("dataType", BY_TYPE)
     factor = keys.scale("factor")
     if factor == 0:
         refuse("factor", "factor 0")
     turned = ABCD if wire.words == 1 and orders != DCBA else orders  # only `little` turns the bytes of one word
     return replace(point, type=wire, orders=turned, multiply=factor)
+
+
+def _unit(metric: str) -> str:
+    """The base unit that the name of a metric ends in, before `_total`; empty where it names none."""
+    words = metric.removesuffix("_total").split("_")
+    ends = ("_".join(words[-count:]) for count in range(min(len(words) - 1, 2), 0, -1))
+    return next((UNITS[end] for end in ends if end in UNITS), "")
 
 
 def _place(keys: Keys) -> tuple[Space, int]:

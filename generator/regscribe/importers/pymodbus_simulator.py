@@ -28,7 +28,8 @@ options = (Option("device", "name in device_list; needed where there are several
 BY_SECTION = read_back(SECTIONS)
 BLOCKS = (Space.COIL, Space.DISCRETE, Space.INPUT, Space.HOLDING)
 WORD_BITS = 16
-MOST_ADDRESSES = 0x10000
+MOST_ADDRESSES = 4 * 0x10000
+"""Addresses of all four blocks together."""
 TAKEN = frozenset({"setup", "write", "invalid", "repeat", *SECTIONS.values()})
 
 

@@ -27,9 +27,10 @@ PROFILE = (
     + resource("Swapped", "startingAddress: 6, isWordSwap: true", "valueType: Float32, readWrite: R", "input_registers")
     + resource("Both", "startingAddress: 8, isWordSwap: true, isByteSwap: true", "valueType: Uint32, readWrite: R")
     + resource("Wide", "startingAddress: 10, isWordSwap: true", "valueType: Uint64, readWrite: R")
-    + resource("Part", "startingAddress: 20", "valueType: Uint16, readWrite: R, mask: 240, shift: -4")
+    + resource("Part", "startingAddress: 20", "valueType: Uint16, readWrite: R, mask: 240, shift: 4")
     + resource("Bit", 'startingAddress: "20.15"', "valueType: Bool, readWrite: R")
-    + resource("Left", "startingAddress: 21", "valueType: Uint16, readWrite: R, mask: 15, shift: 4")
+    + resource("Left", "startingAddress: 21", "valueType: Uint16, readWrite: R, mask: 240, shift: -4")
+    + resource("Kept", "startingAddress: 23", "valueType: Uint16, readWrite: R, mask: 240")
     + resource("Power", "startingAddress: 22", "valueType: Uint16, readWrite: R, base: 2")
     + resource("Text", "startingAddress: 30, stringRegisterSize: 2", "valueType: String, readWrite: R, defaultValue: x")
     + resource("Coil", "startingAddress: 5", "valueType: Bool, readWrite: RW", "COILS")
@@ -64,6 +65,8 @@ def test_swaps_are_those_of_32_bits(imported: Import) -> None:
 def test_mask_and_shift_are_a_part_and_a_point_a_bit(imported: Import) -> None:
     found = imported("edgex", PROFILE)
     assert found.bits("word_holding_20") == {"Part": (4, 7), "Bit": (15, 15)}
+    (kept,) = found.register("kept").fields
+    assert (kept.low, kept.high, kept.multiply) == (4, 7, 16)  # masked and not shifted
     assert {*found.left_out} == {"Wide", "Left", "Odd"}
 
 

@@ -10,11 +10,11 @@ from typing import Any
 from regscribe import files
 from regscribe.dialects import DCBA
 from regscribe.dialects.modbus_exporter import BOOL, ENDIANNESS, FUNCTIONS, TYPES
+from regscribe.dialects.prometheus import BASE_UNITS, BaseUnit
 from regscribe.emit.words import one_line
 from regscribe.export.device import Device, Point
 from regscribe.export.device.names import Names
 from regscribe.export.device.numbers import decimal, is_exact
-from regscribe.export.modbus_exporter.base_units import BASE_UNITS, BaseUnit
 from regscribe.losses import Grade
 from regscribe.model import BitField, Kind, Order, show
 from regscribe.model.identifiers import module_names, opened, snake

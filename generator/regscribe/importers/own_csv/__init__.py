@@ -32,7 +32,7 @@ PASSED_OVER = frozenset({"map", "model", "id", "words", "group", "unit_id", "mor
 NO_REGISTERS = {"command": "a command", "computed": "a computed value"}
 """Kinds of rows that are no registers, in words."""
 
-CRUCIAL = frozenset({"space", "type", "access", "kind", "file", "queue", "block", "page", "exists"}) | NEEDED
+CRUCIAL = frozenset({"space", "type", "access", "kind", "bits", "file", "queue", "block", "page", "exists"}) | NEEDED
 """What says where a number stands, how, and when: without it the number would be a wrong one."""
 
 MOST_TEXT = 60

@@ -5,10 +5,12 @@ from collections.abc import Callable, Mapping
 from fractions import Fraction
 from typing import Any
 
+from regscribe.draft.ids import Taken, free_id
 from regscribe.draft.numbers import plain, scaling
 from regscribe.evidence.cell_compare import access, number, objects
 from regscribe.files import OneLine
 from regscribe.model import Space, WireType, show
+from regscribe.model.identifiers import snake
 from regscribe_runtime.values.kinds import MOMENTS, Kind
 from regscribe_runtime.values.octets import KINDS
 
@@ -94,10 +96,34 @@ def _sentinels(cells: Cells) -> dict[str, Any]:
 
 def _bits(cells: Cells) -> dict[str, Any] | None:
     found = objects(cells["bits"])
+    if found and cells.get("kind", "") == Kind.FIELDS:
+        return _fields({bits: str(label) for bits, label in found.items()})
     if not found or not all(bit.isdecimal() for bit in found):
         return None
     flags: dict[Any, str] = {int(bit): str(label) for bit, label in found.items()}
     return {"flags": OneLine(flags)}
+
+
+PART = re.compile(r"([^:]+)(?:: (-?[0-9]+ = .*))?")
+"""A label, and the codes of its values."""
+
+CODE = re.compile(r"(-?[0-9]+) = ([^,=]+)")
+
+
+def _fields(parts: Mapping[str, str]) -> dict[str, Any] | None:
+    """The parts of a word by their bits, where nothing but codes is said of them."""
+    taken: Taken = {}
+    found: dict[str, Any] = {}
+    for bits, label in parts.items():
+        part = PART.fullmatch(label)
+        codes = part and [CODE.fullmatch(code) for code in (part[2] or "").split(", ") if code]
+        if not part or codes is None or not all(codes):
+            return None
+        keys: dict[str, Any] = {"bits": bits} if ".." in bits else {"bit": int(bits)}
+        enum: dict[Any, str] = {int(code[1]): code[2] for code in codes if code}
+        more = {"enum": OneLine(enum)} if enum else {}
+        found[free_id(snake(part[1]), {"at": bits}, taken, "part")] = OneLine({**keys, "label": part[1], **more})
+    return {"fields": OneLine(found)}
 
 
 def _scale(cells: Cells) -> dict[str, Any] | None:
@@ -118,7 +144,7 @@ def _kind(cells: Cells) -> dict[str, Any] | None:
     if (kind == "boolean" and not of_bits) or (kind in NUMBERS and of_bits) or apart:
         return {"kind": kind}
     told = cells["kind"] != "version" or "version" in (objects(cells.get("more", "")) or {})
-    return {} if told and cells["kind"] != "fields" else None
+    return {} if told and (kind != Kind.FIELDS or "bits" in cells) else None
 
 
 def _views(cells: Cells) -> dict[str, Any] | None:

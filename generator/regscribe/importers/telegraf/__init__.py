@@ -1,6 +1,6 @@
 """The importer of Telegraf's input plug-in modbus, in all of its three styles: each field is a register."""
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator, Mapping, Sequence
 from functools import partial
 from typing import NamedTuple
 
@@ -12,6 +12,7 @@ from regscribe.importers.shared.read_toml import read_toml
 from regscribe.importers.shared.reading import Keys
 from regscribe.importers.shared.tree import Node, TreeError
 from regscribe.importers.telegraf.fields import SHOWN, field_of, field_of_list
+from regscribe.importers.telegraf.processors import Scaling, scaled, scalings
 from regscribe.plugins import Likeness, Option
 
 name = "telegraf"
@@ -53,10 +54,11 @@ def read(data: bytes, name: str, options: Mapping[str, str]) -> Draft:
     found = Collecting(name, SHOWN)
     found.doubled(doubled)
     location = one.word("string_register_location")
+    behind = scalings(root)
     for field in fields:
         if field.unit == unit:
-            _add(found, field, location)
-    _told(found, one)
+            _add(found, field, location, behind)
+    _told(found, one, root)
     return found.draft(title=one.word("name"), head=_head(one, unit))
 
 
@@ -89,23 +91,22 @@ def _unit(block: Node) -> str:
     return NO_UNIT if number is None else str(number)
 
 
-def _add(found: Collecting, field: Field, location: str) -> None:
+def _add(found: Collecting, field: Field, location: str, behind: Sequence[Scaling]) -> None:
     called = field.node.word("name")
     keys = Keys(field.node)
     if keys.truth("omit") if field.node.word("omit").lower() in {"true", "false"} else False:
         return
     group = field.node.word("measurement") or field.block.word("measurement") or "Registers"
     make = field_of_list if field.table else field_of
-    block = field.block
-    found.add(
-        called or "unnamed",
-        field.node,
-        partial(make, called or "unnamed", found.place(field.node), block, field.table, location),
-        group=group,
-    )
+    point = partial(make, called or "unnamed", found.place(field.node), field.block, field.table, location)
+    found.add(called or "unnamed", field.node, lambda keys: scaled(point(keys), group, called, behind), group=group)
 
 
-def _told(found: Collecting, one: Node) -> None:
+def _told(found: Collecting, one: Node, root: Node) -> None:
+    """Tell what of the input, and of processors behind it, no map has."""
+    processors = root.get("processors")
+    if others := ", ".join(key for key in (processors.members if processors else None) or {} if key != "scale"):
+        found.stated.append(f"what processors do with values is not taken over: {others}")
     taken = {"name", "slave_id", "string_register_location", "workarounds", *BLOCKS, *TABLES}
     told = ", ".join(key for key in one.members or {} if key not in taken)
     if told:
