@@ -177,7 +177,7 @@ def test_a_text_is_as_long_as_its_registers(export: Export, small: Small, resour
     assert found["attributes"]["stringRegisterSize"] == 4
     text = small("at: 0, name: A", "at: 8, name: Tag, type: string, length: 124, access: r")
     (loss,) = [one for one in export("edgex", text).losses if one.fact == "register"]
-    assert loss.done == "left out: it has 124 words, and a text has 123 at most"
+    assert loss.done == "left out: it has 124 words, of which one request has 123 at most"
 
 
 def test_a_truth_value_in_a_word_is_its_lowest_bit_or_a_number_where_it_is_written(resources: Resources) -> None:

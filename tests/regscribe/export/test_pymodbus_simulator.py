@@ -154,3 +154,14 @@ views:
 """
     found = words("at: 0, name: Order, type: uint16, access: r", "at: 1, name: A, views: both, default: 5", top=top)
     assert found == {0: 0, 1: 5, 1002: 0, 1003: 0}
+
+
+def test_a_view_that_is_clipped_holds_what_the_device_would_send(words: Callable[..., Any]) -> None:
+    top = """
+views:
+  both:
+    base: {type: float32}
+    whole: {type: int16, offset: 1000, rounding: half_up, saturates: true}
+"""
+    found = words("at: 0, name: A, views: both, default: 40000", top=top)
+    assert found[1000] == 0x7FFF

@@ -23,6 +23,7 @@ carries: Carries = RESOLVED | {
     **dict.fromkeys(("unit", "flags", "string", "boolean", "group", "name", "description"), Carry.WHOLE),
     **dict.fromkeys(("write-only",), Carry.WHOLE),
     **dict.fromkeys(("scale", "offset", "range", "range-union", "sentinel", "enum", "fields", "write"), Carry.PARTLY),
+    **dict.fromkeys(("functions", "limits"), Carry.PARTLY),
 }
 
 SWAPPED_WORDS = 2
@@ -41,11 +42,11 @@ def _fits(wire: Wire) -> bool:
 
 def _refuses(point: Point, request: Request) -> str:
     wire, form = point.wire, point.register.text
-    most = min(request.register_map.protocol.most_read(wire.space), LONGEST_TEXT)
+    most = request.register_map.protocol.most_read(wire.space)
     if wire.type is WireType.STRING and (form.encoding not in ENCODINGS or form.per_register):
         return f"its text is {form.encoding}{', one byte in a register' * bool(form.per_register)}: it must be UTF-8"
-    if wire.type is WireType.STRING and point.words > most:
-        return f"it has {point.words} words, and a text has {most} at most"
+    if point.words > min(most, LONGEST_TEXT):
+        return f"it has {point.words} words, of which one request has {min(most, LONGEST_TEXT)} at most"
     if point.is_scaled and wire.space.is_bits:
         return "a bit has no scale"
     if point.is_scaled and wire.type.is_integer and wire.type not in RAW_TYPES and not _is_whole(point):

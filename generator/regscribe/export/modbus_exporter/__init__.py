@@ -21,7 +21,7 @@ options = tuple(option for option in DEVICE_OPTIONS if option.name != "every")
 carries: Carries = RESOLVED | {
     "boolean": Carry.PARTLY,
     **dict.fromkeys(("flags", "name", "description", "pause"), Carry.WHOLE),
-    **dict.fromkeys(("scale", "offset", "unit", "enum"), Carry.PARTLY),
+    **dict.fromkeys(("scale", "offset", "unit", "enum", "functions", "limits"), Carry.PARTLY),
 }
 
 WORD_SPACES = frozenset({Space.HOLDING, Space.INPUT})

@@ -16,6 +16,8 @@ from regscribe.reference import (
     encode,
     ieee_number,
     number_of,
+    straight,
+    transmit,
     word_order,
 )
 from regscribe_runtime.values.kinds import OCTETS
@@ -25,6 +27,8 @@ SPACES: tuple[Space, ...] = (Space.COIL, Space.DISCRETE, Space.INPUT, Space.HOLD
 
 CELL_BITS = 16
 """A cell of the simulator holds a word, or so many coils."""
+
+PATTERNS = frozenset({Kind.FLAGS, Kind.FIELDS})
 
 Value = int | float | str
 
@@ -99,10 +103,21 @@ def _words(device: Device, register: Register, view: View, value: Fraction | str
         device.lose(register, "default", Grade.COSMETIC, "the map states none: it holds zeros")
         return (0,) * view.words
     try:
-        return encode(register, view, value, device.request.known, rounded=True)
+        return _encoded(register, view, value, device.request.known)
     except (RefusedError, UnknownValueError) as why:
         device.lose(register, "default", Grade.LOST, f"it holds zeros: {why}")
         return (0,) * view.words
+
+
+def _encoded(register: Register, view: View, value: Fraction | str, known: Known) -> tuple[int, ...]:
+    """The words of a value; clipped as the device clips it, where the view cannot carry it."""
+    try:
+        return encode(register, view, value, known, rounded=True)
+    except RefusedError:
+        line = None if isinstance(value, str) else straight(choose(register.scale, known), known)
+        if line is None or isinstance(value, str) or register.kind in PATTERNS:
+            raise
+        return transmit(view, line.stored(value), known)
 
 
 def _set_bit(memory: Memory, view: View, address: int, value: int) -> None:

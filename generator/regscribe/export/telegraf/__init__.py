@@ -20,7 +20,7 @@ options = DEVICE_OPTIONS
 carries: Carries = RESOLVED | {
     "boolean": Carry.PARTLY,
     **dict.fromkeys(("unit", "string", "flags", "limits", "pause"), Carry.WHOLE),
-    **dict.fromkeys(("scale", "offset"), Carry.PARTLY),
+    **dict.fromkeys(("scale", "offset", "functions"), Carry.PARTLY),
 }
 
 LAST = 0xFFFF

@@ -22,7 +22,7 @@ carries: Carries = RESOLVED | {
     "boolean": Carry.PARTLY,
     **dict.fromkeys(("scale", "offset", "unit", "flags", "fields", "string"), Carry.WHOLE),
     **dict.fromkeys(("padding", "group", "name", "description"), Carry.WHOLE),
-    **dict.fromkeys(("sentinel", "enum", "special-value", "valid"), Carry.PARTLY),
+    **dict.fromkeys(("sentinel", "enum", "special-value", "valid", "functions", "limits"), Carry.PARTLY),
 }
 
 ADDRESSES = 0xFFFF
