@@ -42,12 +42,9 @@ class Edits:
         return self.at(place.line, place.column)
 
     def end(self, place: SourcePlace) -> int:
-        """The offset behind something, without the blanks and comments that follow a block."""
+        """The offset behind something, without the blanks that follow a block."""
         text = self.text[self.start(place) : self.at(place.end_line, place.end_column)]
-        lines = text.split("\n")
-        while len(lines) > 1 and (not lines[-1].strip() or lines[-1].lstrip().startswith("#")):
-            lines.pop()
-        return self.start(place) + len("\n".join(lines).rstrip())
+        return self.start(place) + len(text.rstrip())
 
     def slice(self, place: SourcePlace) -> str:
         """The text at a place."""

@@ -106,6 +106,15 @@ def test_a_new_row_stands_behind_the_row_that_it_follows_in_the_list_with_its_co
     assert told(found) == [(Change.ADDED, "Level (holding 9)", "to the group Drive")]
 
 
+def test_comments_behind_the_last_register_stay_behind_what_is_added() -> None:
+    row = "      - {at: 9, name: Level, access: r}\n"
+    block = LISTED.replace(
+        "- {at: 2, name: Flow, access: r, decimals: 1}", "- at: 2\n        name: Flow\n        access: r"
+    )
+    found = merged(block + row, block + "\n  # a word at the end\n\nnotes: [mine]\n", block)
+    assert found.text == HEAD + block + row + "\n  # a word at the end\n\nnotes: [mine]\n"
+
+
 def test_new_rows_of_a_new_group_become_a_group_at_the_end() -> None:
     new = LISTED + (
         "  - id: alarms\n    name: Alarms\n    registers:\n"
@@ -165,11 +174,17 @@ def test_a_unit_that_a_new_row_needs_is_declared(ours: str, units: str) -> None:
     assert merged(declared + LISTED + row, ours + LISTED).text == HEAD + units + LISTED + row
 
 
-def test_registers_of_one_address_at_several_unit_ids_are_told_apart() -> None:
+@pytest.mark.parametrize("name", ["Drive", "Fan"])
+def test_registers_of_one_address_at_several_unit_ids_are_told_apart(name: str) -> None:
     both = LISTED + (
         "  - id: fan\n    name: Fan\n    unit_id: 2\n    registers:\n"
         "      - {at: 1, name: Speed, access: rw, unit: '%'}\n"
     )
-    found = merged(both.replace("unit: '%'}\n      - {at: 2", "unit: rpm}\n      - {at: 2"), both, both)
-    assert found.text.count("rpm") == 1
-    assert found.text.index("rpm") < found.text.index("Fan")
+    before, middle, after = both.partition(f"name: {name}")
+    new = before + middle + after.replace("unit: '%'", "unit: rpm", 1)
+    assert merged(new, both, both).text == HEAD + new
+
+
+def test_what_a_person_changed_as_the_list_did_is_no_difference() -> None:
+    new = LISTED.replace("decimals: 1", "decimals: 2")
+    assert merged(new, new) == Merged(HEAD + new, ())

@@ -1,7 +1,7 @@
 """Tells registers from all other rows of a table: titles of sections, continued rows, footnotes, headers once more."""
 
 import re
-from collections.abc import Iterator, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass, field, replace
 
 from regscribe.importers.table.columns import Column
@@ -64,7 +64,6 @@ def lay_out(grid: Grid, header: Header, columns: Sequence[Column]) -> Layout:
             found.sections += bool(section is not None and not used)
             used = True
             found.items.append(_item(row, section, columns))
-            found.findings += _too_wide(grid, header, row)
     if section is not None and not used:
         found.findings.append(_stray(grid, section))
     return found
@@ -90,12 +89,6 @@ def _stray(grid: Grid, row: Row) -> Diagnostic:
     text = " ".join(next(cell for cell in row.cells if cell).split())
     message = f"this row is no register and the title of none: `{text[:100]}`"
     return grid.warn("note", message, row, "read it: it may say something of registers")
-
-
-def _too_wide(grid: Grid, header: Header, row: Row) -> Iterator[Diagnostic]:
-    beyond = [cell for cell in row.cells[len(header.headings) :] if cell]
-    if beyond:
-        yield grid.warn("wide", f"it has more cells than the header: `{beyond[0][:60]}` is not read", row)
 
 
 def _item(row: Row, section: Row | None, columns: Sequence[Column]) -> Item:

@@ -159,6 +159,11 @@ def test_cells_of_a_workbook_are_read_as_they_are_stored_with_their_places(workb
     assert found.rows[2].place(3) == "sheet Registers, cell D3"
 
 
+def test_places_count_from_the_sheet_where_a_part_of_it_is_read(workbook: Callable[..., bytes]) -> None:
+    (found,) = grids(workbook(Registers=ROWS), "list.xlsx", range="B3:D4")
+    assert (found.rows[0].place(0), found.rows[0].cells) == ("sheet Registers, cell B3", ("Speed", "0", "0.1"))
+
+
 def test_every_cell_of_a_merged_area_says_what_the_first_one_says(workbook: Callable[..., bytes]) -> None:
     def merge(book: Any) -> None:
         book["Registers"].merge_cells("C1:D1")

@@ -103,6 +103,26 @@ def test_a_header_of_two_rows_is_one() -> None:
     assert keys(found) == [{"at": 16, "name": "Level", "access": "rw", "range": "0..50"}]
 
 
+def test_short_headings_are_divided_by_those_above_them() -> None:
+    text = ",,,,Range,,Codes\nAddress,Name,Type,Access,min,max,values\n5,Level,U16,R/W,0,50,\n"
+    found = draft(text)
+    assert [column.heading for column in found.recognised][4:] == ["Range min", "max", "Codes values"]
+    assert keys(found) == [{"at": 5, "name": "Level", "access": "rw", "range": "0..50"}]
+
+
+def test_cells_beyond_the_header_are_told_as_a_column_without_a_heading() -> None:
+    found = draft(PLAIN + "0,Speed,U16,R,stray\n")
+    assert [one.message for one in found.findings] == [
+        "line 1: column 5, without a heading, is not understood and not read"
+    ]
+
+
+def test_a_column_without_a_known_heading_is_told_by_its_cells() -> None:
+    found = draft("Address,Name,Quux,Access\n0,Speed,U16,R\n1,Flow,S16,R\n2,Level,U16,R\n")
+    assert found.recognised[2].meaning == "type"
+    assert found.recognised[2].evidence == "3 of 3 cells are such"
+
+
 def test_merged_cells_above_divide_into_headings(workbook: Callable[..., bytes]) -> None:
     rows = [["Address", "Name", "Type", "Access", "Range", None], [None, None, None, None, "Min", "Max"]]
     data = workbook(
@@ -132,6 +152,7 @@ def test_a_column_that_nobody_understands_is_told_and_kept_if_the_user_says_so()
     found = draft(text)
     assert [one.message for one in found.findings] == ["line 1: column 5, `Quux`, is not understood and not read"]
     assert only(text, columns="description=Quux")["description"] == "seen once"
+    assert "description" not in only(text.replace("Quux", "Note"), columns="description=-")
 
 
 def test_columns_are_fixed_by_heading_letter_or_number_and_roles_can_be_left_to_none() -> None:
@@ -215,6 +236,25 @@ def test_rows_without_address_and_name_continue_the_codes_above() -> None:
     found = draft(text)
     assert keys(found)[0] == {"at": 0, "name": "Mode", "access": "rw", "enum": {0: "off", 1: "on", 2: "auto"}}
     assert len(found.entries) == 2
+
+
+def test_a_continued_row_that_says_something_else_is_told() -> None:
+    text = "Address,Name,Type,Access,Values,Unit\n0,Mode,U16,R,0 = off,\n,,,,1 = on,V\n,,,,2 = auto,A\n"
+    found = draft(text)
+    assert found.entries[0].remarks[0].code == "continued"
+    assert "line 4 says `A` too" in found.entries[0].remarks[0].message
+
+
+def test_an_address_and_a_row_that_say_different_spaces_leave_it_out() -> None:
+    found = draft("Address,Function,Name,Type,Access\n4x0001,Input,Speed,U16,R\n4x0002,Holding,Flow,U16,R\n")
+    assert codes(found) == [["address-unclear"], []]
+    assert "is an address of holding registers, and another column says input" in found.entries[0].remarks[0].message
+
+
+def test_a_range_of_addresses_that_the_type_does_not_fill_leaves_the_row_out() -> None:
+    found = draft(PLAIN + "7~14,Levels,U16,R\n20~21,Total,U32,R\n30~37,Levels,,R\n", type="uint16")
+    assert codes(found) == [["type-unclear"], [], ["length-unclear"]]
+    assert "its address says 8 registers and its type takes 1" in found.entries[2].remarks[0].message
 
 
 def test_rows_of_bits_become_one_register_with_flags() -> None:
