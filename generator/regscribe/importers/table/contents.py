@@ -6,6 +6,7 @@ from collections.abc import Callable, Mapping, Sequence
 from regscribe.importers.table.cells import Unclear
 from regscribe.importers.table.cells.access import AccessCell, parse_access
 from regscribe.importers.table.cells.enums import Codes, parse_codes
+from regscribe.importers.table.cells.ranges import Limits, parse_range
 from regscribe.importers.table.cells.spaces import SpaceCell, parse_spaces
 from regscribe.importers.table.cells.types import Dialect, TypeCell, parse_type
 from regscribe.importers.table.cells.units import UnitCell, parse_unit
@@ -18,7 +19,7 @@ FEWEST = 6
 SEEN = 400
 """Cells of a column that are looked at."""
 
-ADDRESS = re.compile(r"(?=.*[0-9])[A-Za-z$%:]{0,4}[\s#]?[0-9A-Fa-f][\w\s.,:~/\[\]()-]{0,24}")
+ADDRESS = re.compile(r"(?=.*[0-9])[A-Za-z$%@#:]{0,4}[\s#]?[0-9A-Fa-f][\w\s.,:~/\[\]()-]{0,24}")
 """A text that may be an address: a number, perhaps with a prefix, a suffix, a second number."""
 
 DIALECT = Dialect(characters=True, size_bits=16, little_bytes=False)
@@ -55,6 +56,11 @@ def is_unit(text: str) -> bool:
     return isinstance(found := parse_unit(text), UnitCell) and found.known
 
 
+def is_range(text: str) -> bool:
+    """Whether a text is a range of numbers."""
+    return isinstance(parse_range(text), Limits)
+
+
 def is_codes(text: str) -> bool:
     """Whether a text is codes with their labels."""
     return isinstance(parse_codes(text), Codes)
@@ -70,7 +76,7 @@ _ELSE: Mapping[str, tuple[Callable[[str], bool], Mapping[str, Callable[[str], bo
     "length": (is_size, {"type": is_type}, "length"),
     "space": (is_space, {"type": is_type}, "description"),
     "access": (lambda text: not isinstance(parse_access(text, "writable"), Unclear), {}, ""),
-    "values": (is_codes, {}, "description"),
+    "values": (is_codes, {"range": lambda text: is_codes(text) or is_range(text)}, "description"),
 }
 """Roles whose headings mean something else to some people: what their cells are, what they may be, and else."""
 

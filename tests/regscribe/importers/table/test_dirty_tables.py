@@ -271,3 +271,30 @@ def test_a_remark_or_a_range_against_the_type_leaves_the_row_out(imported: Impor
     assert "begins at -50" in found.left_out["Temperature"]
     assert "`BCD`" in found.left_out["Date"]
     assert found.value("offset", 0xFFFF) == -1
+
+
+FRENCH = """\
+Adresse;Désignation;Type;Unité;Coefficient;Accès;Commentaire
+@100;Depart;Entier 16 bits signé;°C;0,1;Lecture;
+@102;Energie;Mot double;kWh;1;L;
+@104;Debit;Réel;m3/h;;L;poids faible en premier
+@106;Marche;Booléen;;;L/E;0 : arrêt / 1 : marche
+@107;Etat;Mot;;;L;bit 0 = défaut, bit 1 = alarme
+"""
+
+
+def test_a_french_list(imported: Import) -> None:
+    found = imported("table", FRENCH)
+    assert found.left_out == {}
+    assert found.value("depart", 0xFFFF) == Fraction(-1, 10)
+    assert found.value("debit", 0x0000, 0x3FC0) == Fraction(3, 2)  # 1.5 is 3FC00000, low word first
+    assert found.members("marche") == {0: "arrêt", 1: "marche"}
+    assert found.bits("etat") == {"défaut": (0, 0), "alarme": (1, 1)}
+
+
+def test_a_column_of_valid_values_may_have_ranges_and_codes(imported: Import) -> None:
+    rows = '1,V,UInt16,10,V,0-6553.5\n2,Mode,UInt16,,,"0 (Off), 1 (On)"\n3,F,UInt16,100,Hz,45.00-65.00\n'
+    found = imported("table", f"Register,Description,Data Type,Scale Factor,Units,Valid Values\n{rows}")
+    assert "range: 0..6553.5" in found.text
+    assert "range: 45..65" in found.text
+    assert found.members("mode") == {0: "Off", 1: "On"}

@@ -30,7 +30,7 @@ _NUMBER = r"0x[0-9a-f]{1,16}|[0-9a-f]{1,8}h(?![a-z])|-?[0-9]{1,20}"
 _TO = r"\s*(?:\.\.+|~|\u2026|-|\bto\b|\u2013)\s*"
 _CODE = rf"(?P<bit>{_BIT})?(?P<low>{_NUMBER})(?:{_TO}(?:{_BIT})?(?P<high>{_NUMBER}))?"
 _OTHER = r"(?P<other>others?|else|all others|any other|andere|sonst)"
-_SEPARATORS = ("=", ":", "\u2192|->|=>", r"\)", r"-(?=\s*[^\s0-9-])|\u2013")
+_SEPARATORS = ("=", ":", "\u2192|->|=>", r"\)", r"\((?=[^()0-9][^()]*\))", r"-(?=\s*[^\s0-9-])|\u2013")
 _EDGE = r"(?:^|(?<=[\s;,/|.(\[{\n\"']))"
 
 
@@ -94,7 +94,10 @@ def _is_time(place: re.Match[str], plain: str) -> bool:
 
 
 def _part(place: re.Match[str], label: str, lead: str) -> Part:
-    label = " ".join(label.strip(_TRAILING).strip("\"'").split())
+    label = label.strip(_TRAILING)
+    if place[0].endswith("("):
+        label = label.removesuffix(")")
+    label = " ".join(label.strip("\"'").split())
     if place["other"]:
         return Part(low=-1, high=-1, label=label, digits="", is_other=True, lead=lead)
     low = _number(place["low"])

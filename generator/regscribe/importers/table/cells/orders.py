@@ -34,6 +34,10 @@ _WORDS = (
         Orders(_LITTLE),
         r"lo(?:w)?\s*[-/,]\s*hi(?:gh)?|lsw\s*[-/,]?\s*msw|least significant word first|lowest word first",
     ),
+    (Orders(_LITTLE), r"little[\s-]endian word order|word order:? little(?:[\s-]endian)?|inverted word order"),
+    (Orders(_LITTLE), r"poids faible (?:en premier|d'abord)|niederwertige[rs]? wort zuerst|low word zuerst"),
+    (Orders(_BIG), r"poids fort (?:en premier|d'abord)|höherwertige[rs]? wort zuerst|high word zuerst"),
+    (Orders(_BIG), r"big[\s-]endian word order|word order:? big(?:[\s-]endian)?"),
     (Orders(_LITTLE), r"swapped|swap|sw|reversed|inverse|inverted"),
     (
         Orders(_BIG),
@@ -68,7 +72,8 @@ def parse_order(text: str, *, little_bytes: bool | None = None) -> Orders | Uncl
 
 _SAID = re.compile(
     r"\b(?:abcd|cdab|badc|dcba|(?:low|high) word first|[lm]sw first|words? swapped|swapped words|lo-hi|hi-lo"
-    r"|(?:little|big)[\s-]endian)\b",
+    r"|poids (?:faible|fort) en premier|(?:niederwertige|höherwertige)[rs]? wort zuerst"
+    r"|(?:little|big)[\s-]endian(?: word order| words)?)\b",
     re.IGNORECASE,
 )
 

@@ -10,6 +10,7 @@ from regscribe.importers.table.cells.dialects import Dialect, DialectChoice, cho
 from regscribe.importers.table.cells.numbers import clean
 from regscribe.importers.table.cells.orders import Orders, parse_order, split_order
 from regscribe.importers.table.cells.sizes import Size, parse_size
+from regscribe.importers.table.cells.type_phrases import phrase
 from regscribe.importers.table.cells.type_words import (
     BITS_WORDS,
     FIXED,
@@ -111,7 +112,7 @@ def _checked(found: TypeCell, sized: Size | None, text: str, size: str) -> TypeC
 
 def _type(words: _Words) -> TypeCell | Unclear:
     """The type that words without an order say."""
-    for reading in (_fixed, _of_dialect, _text, _kind, _numbered, _signed, _unix, _bracketed, _part):
+    for reading in (_fixed, _of_dialect, _text, _kind, _numbered, _signed, _unix, _phrase, _bracketed, _part):
         if found := reading(words):
             return found
     return _unknown(words.folded, words.text)
@@ -152,6 +153,10 @@ def _signed(words: _Words) -> TypeCell | Unclear | None:
     if words.size is None:
         return Unclear(f"{quoted(words.text)} does not say of how many bits")
     return _cell(f"{stem}{words.size.bits}") or Unclear(f"there is no {stem} of {words.size.bits} bits")
+
+
+def _phrase(words: _Words) -> TypeCell | None:
+    return _cell(phrase(words.plain, words.dialect, words.size.bits if words.size else 0))
 
 
 def _part(words: _Words) -> TypeCell | None:

@@ -25,6 +25,7 @@ OFF_ON = {0: "Off", 1: "On"}
         "0 :Off1: On",
         "(0) Off (1) On",
         "0) Off 1) On",
+        "0 (Off), 1 (On)",
         "0='Off', 1='On'",
         "0→Off 1→On",
         "0x00=Off 0x01=On",

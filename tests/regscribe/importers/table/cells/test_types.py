@@ -20,11 +20,49 @@ USUAL = Dialect()
 BIG, LITTLE = Order.BIG, Order.LITTLE
 
 TYPES = {
-    "uint16": ["U16", "UINT16", "uint_16", "WORD", "USHORT", "unsigned 16", "16-bit unsigned integer", "INT16U", "16U"],
-    "int16": ["S16", "I16", "INT", "SHORT", "signed int 16", "Int16", "int16_t", "sunssf"],
-    "uint32": ["U32", "UDINT", "DWORD", "ULONG", "Unsigned 32-bit", "acc32", "U_DWORD"],
-    "int32": ["S32", "DINT", "LONG", "Signed 32 bits", "S_DWORD"],
-    "float32": ["F32", "FLOAT", "REAL", "IEEE754", "IEEE 754 float", "32 bit float", "FP32", "Float32"],
+    "uint16": [
+        "U16",
+        "UINT16",
+        "uint_16",
+        "WORD",
+        "USHORT",
+        "unsigned 16",
+        "16-bit unsigned integer",
+        "INT16U",
+        "16U",
+        "Mot",
+        "Unsigned 16-bit Integer",
+        "Wort (vorzeichenlos)",
+        "无符号16位整数",
+    ],
+    "int16": [
+        "S16",
+        "I16",
+        "INT",
+        "SHORT",
+        "signed int 16",
+        "Int16",
+        "int16_t",
+        "sunssf",
+        "Entier 16 bits signé",
+        "Mot signé",
+        "INT16 (2's complement)",
+        "2 byte signed integer",
+    ],
+    "uint32": ["U32", "UDINT", "DWORD", "ULONG", "Unsigned 32-bit", "acc32", "U_DWORD", "Mot double", "Doppelwort"],
+    "int32": ["S32", "DINT", "LONG", "Signed 32 bits", "S_DWORD", "Signed 32bit integer"],
+    "float32": [
+        "F32",
+        "FLOAT",
+        "REAL",
+        "IEEE754",
+        "IEEE 754 float",
+        "32 bit float",
+        "FP32",
+        "Float32",
+        "Réel",
+        "Fließkomma 32 Bit",
+    ],
     "float64": ["F64", "LREAL", "DOUBLE"],
     "uint64": ["U64", "ULINT", "U_QWORD"],
     "int64": ["S64", "LINT"],
@@ -48,6 +86,7 @@ def test_a_word_for_a_type(text: str, wire: str) -> None:
         ("UINT32 swapped", "uint32", LITTLE, None),
         ("float sw", "float32", LITTLE, None),
         ("S_DWORD_R", "int32", LITTLE, None),
+        ("UInt32 (little-endian word order)", "uint32", LITTLE, None),
         ("floatsw", "float32", LITTLE, None),
         ("int32le", "int32", LITTLE, LITTLE),
         ("float32 CDAB", "float32", LITTLE, BIG),
@@ -113,7 +152,7 @@ def test_what_says_no_type_for_sure_is_unclear_with_a_proposal(text: str, said: 
     assert said in found.proposal
 
 
-@pytest.mark.parametrize("text", ["xyz", "16 bit", "signed", "Unsigned", "float48", "uint7"])
+@pytest.mark.parametrize("text", ["xyz", "16 words", "16 bit", "signed", "Unsigned", "float48", "uint7"])
 def test_what_is_no_type_is_unclear(text: str) -> None:
     assert isinstance(parse_type(text, USUAL), Unclear)
 
