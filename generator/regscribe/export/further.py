@@ -121,6 +121,7 @@ def _form(register: Register) -> Iterator[Fact]:
         always = all(one.when.always for one in register.sentinels)
         labels = {one.spelled: one_line(one.label) for one in register.sentinels}
         yield "sentinels", labels if always else "; ".join(map(sentinel_words, register.sentinels))
+    yield "stands_for", {show(one.code): show(one.means) for one in register.specials if one.means is not None}
     if register.valid:
         yield "valid", valid_words(register.valid)
     if register.delivered is not None:

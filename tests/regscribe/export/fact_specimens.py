@@ -94,6 +94,9 @@ SPECIMENS: dict[str, tuple[Specimen, ...]] = {
         one("sentinels: [{when: {mode: 1}, is: {-1: broken}}], access: r", "sentinels: {-1: broken}, access: r"),
     ),
     "special-value": (one("range: 1..9, special: {0: automatic}", "range: 1..9"),),
+    "special-number": (
+        one("range: 1..9, special: {0: {label: automatic, means: 5}}", "range: 1..9, special: {0: automatic}"),
+    ),
     "enum": (one("enum: {0: idle, 5: busy}, type: uint16"), one("enum: {0: idle, 5: busy}, access: r", "access: r")),
     "flags": (one("flags: {0: heating, 3: alarm}, type: uint16, access: r", "type: uint16, access: r"),),
     "fields": (one("fields: {zone: {bits: 0..3}}, type: uint16, access: r", "type: uint16, access: r"),),

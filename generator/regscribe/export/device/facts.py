@@ -123,6 +123,11 @@ def _sentinels_by_case(register: Register) -> str:
     return f"by condition, {_sentinels(register)}" if by_case else ""
 
 
+def _standing(register: Register) -> str:
+    found = [one for one in register.specials if one.means is not None and one.means != one.code]
+    return ", ".join(f"{show(one.code)} stands for {show(one.value)}" for one in found)
+
+
 def _fields(register: Register) -> str:
     wide = [one for one in register.fields if not one.is_flag]
     return f"parts of the word: {', '.join(one.id for one in wide)}" if wide else ""
@@ -214,6 +219,7 @@ FACTS = (
     Fact("sentinel", "fault words", WRONG, ("sentinels",), lambda one: _sentinels(one) if one.sentinels else ""),
     Fact("sentinel-condition", "fault words by condition", WRONG, ("sentinels",), _sentinels_by_case, "sentinel"),
     Fact("special-value", "special values beside the range", LOST, ("specials",), _said("specials", "special values")),
+    Fact("special-number", "special values that stand for another number", WRONG, ("specials",), _standing),
     Fact("enum", "codes with labels", LOST, ("enum",), _said("enum", "its codes have labels")),
     Fact("flags", "named bits", LOST, ("fields", "none"), _flags),
     Fact("fields", "parts of a word", LOST, ("fields",), _fields),

@@ -28,10 +28,9 @@ LONGEST_INTERVAL = (1 << 31) // 1000 - 1
 """Seconds that a timer of Node.js can wait; a longer one fires at once."""
 
 carries: Carries = RESOLVED | {
-    **dict.fromkeys(("scale", "offset", "unit", "sentinel", "special-value", "valid", "saturates"), Carry.WHOLE),
-    **dict.fromkeys(
-        ("enum", "flags", "fields", "boolean", "string", "padding", "version", "bytes", "date"), Carry.WHOLE
-    ),
+    **dict.fromkeys(("scale", "offset", "unit", "valid", "saturates"), Carry.WHOLE),
+    **dict.fromkeys(("sentinel", "special-value", "special-number", "enum", "flags", "fields"), Carry.WHOLE),
+    **dict.fromkeys(("boolean", "string", "padding", "version", "bytes", "date"), Carry.WHOLE),
     **dict.fromkeys(("range", "range-union", "functions", "limits"), Carry.WHOLE),
     "write": Carry.PARTLY,
 }

@@ -83,7 +83,7 @@ def _state(device: Device, link: Link, dimension: str) -> dict[str, str]:
     if point.unit and not dimension:
         device.lose(point.register, "unit", Grade.LOST, f"shown behind the number: openHAB has no unit {point.unit}")
     if point.special_numbers:
-        meant = ", ".join(f"{show(one.value)} is {one.label}" for one in point.special_numbers)
+        meant = ", ".join(f"{show(one.code)} is {one.label}" for one in point.special_numbers)
         device.lose(point.register, "special-value", Grade.LOST, one_line(f"a number like any other: {meant}"))
     if point.members:
         return found | {"options": _options(device, point)}
@@ -118,7 +118,7 @@ def _limits(device: Device, point: Point) -> dict[str, str]:
         done = f"{shown}: a rule may send any number, of which the lowest bits are written"
         device.lose(point.register, "range", Grade.LOST, done)
     if point.limits is not None:
-        ends = [*point.limits, *(one.value for one in point.special_numbers)]
+        ends = [*point.limits, *(one.code for one in point.special_numbers)]
         found = {"min": decimal(min(ends)), "max": decimal(max(ends))}
     step = step_of(point, device.request.known)
     if step or not point.wire.type.is_float:
