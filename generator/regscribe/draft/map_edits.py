@@ -68,7 +68,7 @@ class Edits:
     def done(self) -> str:
         """The text with all changes; those at one place in the order in which they were asked for."""
         text = self.text
-        for start, end, new in sorted(self.changes, key=lambda change: change[0], reverse=True):
+        for start, end, new in sorted(reversed(self.changes), key=lambda change: change[0], reverse=True):
             text = text[:start] + new + text[end:]
         return text
 

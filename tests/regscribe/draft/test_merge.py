@@ -106,6 +106,14 @@ def test_a_new_row_stands_behind_the_row_that_it_follows_in_the_list_with_its_co
     assert told(found) == [(Change.ADDED, "Level (holding 9)", "to the group Drive")]
 
 
+def test_a_key_and_a_row_that_are_added_at_one_place_keep_their_order() -> None:
+    lines = "".join(LISTED.splitlines(keepends=True)[:4])
+    base = lines + "      - at: 1\n        name: Speed\n        access: r\n"
+    new = lines + "      - {at: 2, name: Flow, access: r}\n      - {at: 1, name: Speed, access: r, unit: V}\n"
+    found = merged(new, base, base)
+    assert found.text == HEAD + base + "        unit: V\n      - {at: 2, name: Flow, access: r}\n"
+
+
 def test_comments_behind_the_last_register_stay_behind_what_is_added() -> None:
     row = "      - {at: 9, name: Level, access: r}\n"
     block = LISTED.replace(
