@@ -8,7 +8,8 @@ from dataclasses import dataclass
 from regscribe.importers.table.cells import Unclear
 from regscribe.importers.table.cells.addresses import Address, AddressColumn, parse_addresses
 from regscribe.importers.table.cells.addresses import Column as Texts
-from regscribe.importers.table.cells.dialects import Dialect, choose_dialect
+from regscribe.importers.table.cells.dialect_choice import choose_dialect
+from regscribe.importers.table.cells.dialects import Dialect
 from regscribe.importers.table.cells.numbers import decimal_comma
 from regscribe.importers.table.cells.ranges import Limits, parse_limits, parse_range, stated_limits
 from regscribe.importers.table.cells.scales import Hint, ScaleColumn, Way, parse_scales

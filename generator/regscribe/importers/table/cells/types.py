@@ -1,28 +1,29 @@
 """Wire types, as people write them; words that mean different widths to different people are read in a dialect."""
 
 import re
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from difflib import get_close_matches
-from typing import NamedTuple
 
 from regscribe.importers.table.cells import Unclear, quoted
-from regscribe.importers.table.cells.dialects import Dialect, DialectChoice, choose_dialect, read_dialect
+from regscribe.importers.table.cells.dialect_choice import DialectChoice, choose_dialect
+from regscribe.importers.table.cells.dialects import Dialect, read_dialect
 from regscribe.importers.table.cells.numbers import clean
 from regscribe.importers.table.cells.orders import Orders, parse_order, split_order
 from regscribe.importers.table.cells.sizes import Size, parse_size
+from regscribe.importers.table.cells.text_types import text_type
 from regscribe.importers.table.cells.type_phrases import phrase
+from regscribe.importers.table.cells.type_values import WORD_BITS, TypeCell, Words
 from regscribe.importers.table.cells.type_words import (
     BITS_WORDS,
     FIXED,
     KINDS,
     NUMBERED,
     PROPOSED,
-    TEXTS,
     UNIX,
     dialect_type,
     fold,
 )
-from regscribe.model import Order, WireType
+from regscribe.model import WireType
 
 __all__ = [
     "Dialect",
@@ -33,42 +34,6 @@ __all__ = [
     "parse_type",
     "read_dialect",
 ]
-
-
-WORD_BITS = 16
-
-
-@dataclass(frozen=True, slots=True, kw_only=True)
-class TypeCell:
-    """The type that a row says.
-
-    `type` is None where it says an order or a kind alone. `words` are the registers that it takes, 0 if not said (a
-    text without length). Orders are None where the cell says none. `kind` is `flags`, `enum` or `boolean`, where a word
-    says so. `encoding` is that of a text, `layout` that of a date, if they are said; `signed` is a sign without a
-    width, `bits` the number of bits of a part of a word (`2bit`). `stated` says in a sentence how a length was read.
-    """
-
-    type: WireType | None = None
-    words: int = 0
-    word_order: Order | None = None
-    byte_order: Order | None = None
-    kind: str = ""
-    encoding: str = ""
-    layout: str = ""
-    signed: bool | None = None
-    bits: int = 0
-    stated: str = ""
-
-
-class _Words(NamedTuple):
-    """The words of a type without an order: in small letters, and folded; the size beside them; the cell."""
-
-    plain: str
-    folded: str
-    dialect: Dialect
-    size: Size | None
-    text: str
-    gap: int
 
 
 def parse_type(text: str, dialect: Dialect, *, size: str = "", gap: int = 0) -> TypeCell | Unclear | None:
@@ -86,7 +51,7 @@ def parse_type(text: str, dialect: Dialect, *, size: str = "", gap: int = 0) -> 
         return ordered
     rest, orders = ordered
     known = sized if isinstance(sized, Size) else None
-    found = _type(_Words(rest, fold(rest), dialect, known, text, gap)) if rest else TypeCell()
+    found = _type(Words(rest, fold(rest), dialect, known, text, gap)) if rest else TypeCell()
     return found if isinstance(found, Unclear) else _checked(_with_orders(found, orders), known, text, size)
 
 
@@ -110,9 +75,9 @@ def _checked(found: TypeCell, sized: Size | None, text: str, size: str) -> TypeC
     return Unclear(f"the type {quoted(text)} has {found.type.bits} bits, and the size {quoted(size)} says {sized.bits}")
 
 
-def _type(words: _Words) -> TypeCell | Unclear:
+def _type(words: Words) -> TypeCell | Unclear:
     """The type that words without an order say."""
-    for reading in (_fixed, _of_dialect, _text, _kind, _numbered, _signed, _unix, _phrase, _bracketed, _part):
+    for reading in (_fixed, _of_dialect, text_type, _kind, _numbered, _signed, _unix, _phrase, _bracketed, _part):
         if found := reading(words):
             return found
     return _unknown(words.folded, words.text)
@@ -126,15 +91,15 @@ def _cell(name: str, **more: str) -> TypeCell | None:
     return TypeCell(type=wire, words=wire.words, kind=more.get("kind", ""), stated=more.get("stated", ""))
 
 
-def _fixed(words: _Words) -> TypeCell | None:
+def _fixed(words: Words) -> TypeCell | None:
     return _cell(FIXED.get(words.folded, ""))
 
 
-def _of_dialect(words: _Words) -> TypeCell | None:
+def _of_dialect(words: Words) -> TypeCell | None:
     return _cell(dialect_type(words.folded, words.dialect, words.size.bits if words.size else 0))
 
 
-def _numbered(words: _Words) -> TypeCell | Unclear | None:
+def _numbered(words: Words) -> TypeCell | Unclear | None:
     """`unsigned 16`, `32 bit float`: a word and a number of bits."""
     found = NUMBERED.fullmatch(words.folded)
     if not found:
@@ -145,7 +110,7 @@ def _numbered(words: _Words) -> TypeCell | Unclear | None:
     return _cell(f"{stem}{bits}") or Unclear(f"{quoted(words.text)} is no type: there is no {stem} of {bits} bits")
 
 
-def _signed(words: _Words) -> TypeCell | Unclear | None:
+def _signed(words: Words) -> TypeCell | Unclear | None:
     """`signed` or `float`, whose width another column says."""
     stem = BITS_WORDS.get(words.folded)
     if not stem:
@@ -155,17 +120,17 @@ def _signed(words: _Words) -> TypeCell | Unclear | None:
     return _cell(f"{stem}{words.size.bits}") or Unclear(f"there is no {stem} of {words.size.bits} bits")
 
 
-def _phrase(words: _Words) -> TypeCell | None:
+def _phrase(words: Words) -> TypeCell | None:
     return _cell(phrase(words.plain, words.dialect, words.size.bits if words.size else 0))
 
 
-def _part(words: _Words) -> TypeCell | None:
+def _part(words: Words) -> TypeCell | None:
     """`2bit`: a part of a word, whose place the address says."""
     found = re.fullmatch(r"([0-9]{1,2})bits?", words.folded)
     return TypeCell(bits=int(found[1])) if found and 0 < int(found[1]) < WORD_BITS else None
 
 
-def _unix(words: _Words) -> TypeCell | None:
+def _unix(words: Words) -> TypeCell | None:
     """Seconds since 1970, whose width another column says."""
     layouts = {2: "unix", 4: "unix64"}
     if words.folded not in UNIX or not words.size or words.size.words not in layouts:
@@ -173,7 +138,7 @@ def _unix(words: _Words) -> TypeCell | None:
     return TypeCell(type=WireType.DATETIME, words=words.size.words, layout=layouts[words.size.words])
 
 
-def _bracketed(words: _Words) -> TypeCell | Unclear | None:
+def _bracketed(words: Words) -> TypeCell | Unclear | None:
     """`UINT (16 bit)`, `U16 (bitfield)`: a type with its size, its kind or an order in brackets."""
     found = re.fullmatch(r"(.+?)\s*[(\[]([^()\[\]]+)[)\]]", words.plain)
     if not found:
@@ -189,7 +154,7 @@ def _bracketed(words: _Words) -> TypeCell | Unclear | None:
     return _checked(replace(of_type, kind=kind or of_type.kind), size, words.text, found[2])
 
 
-def _kind(words: _Words) -> TypeCell | Unclear | None:
+def _kind(words: Words) -> TypeCell | Unclear | None:
     """A word that says of what kind the value is: its number is unsigned, of 16 bits if nothing else is said."""
     folded = re.sub(r"([0-9]+)(?:digits?|bits?)(bcd|flags|bitmap|enum)", r"\2\1", words.folded)
     found = re.fullmatch(r"([a-z]+?)([0-9]*)(?:bits?|digits?)?", folded)
@@ -203,42 +168,6 @@ def _kind(words: _Words) -> TypeCell | Unclear | None:
         of_digits = f"bcd{bits if bits >= 16 else 4 * bits}"  # noqa: PLR2004 - digits of four bits each
         return _cell(of_digits) or Unclear(f"{quoted(words.text)} is no type")
     return _cell(f"uint{bits}", kind=kind) or Unclear(f"{quoted(words.text)}: there is no number of {bits} bits")
-
-
-def _text(words: _Words) -> TypeCell | Unclear | None:
-    """A text with its length, which counts characters or registers; None if it is no text."""
-    found = TEXTS.fullmatch(words.plain) or TEXTS.fullmatch(words.folded)
-    if not found:
-        return None
-    word, unit = found["word"] or found["word2"], found["unit"] or found["unit2"] or ""
-    if word == "char" and not (found["n"] or found["m"]) and not words.size:
-        return None
-    plain = TypeCell(type=WireType.STRING, words=words.size.words if words.size else 0, encoding=_encoding(word))
-    length = int(found["n"] or found["m"] or 0)
-    if not length:
-        return plain
-    counts = _counts_characters(unit, word, words.dialect)
-    if counts is None and length > 1 and (plain.words or words.gap) in {length, (length + 1) // 2}:
-        counts = (plain.words or words.gap) != length
-    if counts is None:
-        return _unclear_length(words.text)
-    stated = f"{quoted(words.text)} has {length} {'characters' if counts else 'registers'}"
-    return replace(plain, words=(length + 1) // 2 if counts else length, stated=stated)
-
-
-def _encoding(word: str) -> str:
-    return "utf-8" if word.startswith("utf") else ""
-
-
-def _counts_characters(unit: str, word: str, dialect: Dialect) -> bool | None:
-    """Whether the length of a text counts characters, by the word behind it, else by the dialect."""
-    if unit:
-        return unit[0] in "cbz"
-    return True if word.startswith("char") else dialect.characters
-
-
-def _unclear_length(text: str) -> Unclear:
-    return Unclear(f"{quoted(text)} does not say whether its length counts characters or registers")
 
 
 def _unknown(folded: str, text: str) -> Unclear:
