@@ -276,6 +276,7 @@ def test_parts_of_a_word_are_sensors_with_a_mask(made: Made) -> None:
     zone, level = found["sensor"]
     assert (zone["bitmask"], level["bitmask"]) == (0x000F, 0x0FF0)
     assert (level["filters"], level["unit_of_measurement"]) == ([{"multiply": 0.5}], "%")
+    assert (zone["accuracy_decimals"], level["accuracy_decimals"]) == (0, 1)
     assert [each["bitmask"] for each in found["binary_sensor"]] == [0x8000]
 
 

@@ -2,6 +2,7 @@
 
 from decimal import Context, Decimal
 from fractions import Fraction
+from math import lcm
 
 from regscribe.model import show
 
@@ -23,6 +24,15 @@ def decimal(number: Fraction) -> str:
 def is_exact(number: Fraction) -> bool:
     """Whether `decimal` says it exactly."""
     return "/" not in show(number)
+
+
+def places(*numbers: Fraction) -> int | None:
+    """How many decimals whole multiples of these, and their sums, have at most; None where one has no end."""
+    denominator, digits = lcm(*(one.denominator for one in numbers)), 0
+    while denominator % 10 == 0 or denominator % 2 == 0 or denominator % 5 == 0:
+        denominator //= 10 if denominator % 10 == 0 else 2 if denominator % 2 == 0 else 5
+        digits += 1
+    return digits if denominator == 1 else None
 
 
 def json_number(number: Fraction) -> int | float:

@@ -4,11 +4,11 @@ from collections.abc import Callable, Iterator, Sequence
 from contextlib import contextmanager
 from dataclasses import dataclass
 from fractions import Fraction
-from math import lcm
 from typing import NamedTuple
 
 from regscribe.emit.words import condition_words, one_line
 from regscribe.export.device.facts import KINDS, Carries, Carry
+from regscribe.export.device.numbers import places
 from regscribe.model import (
     IDENTITY,
     BitField,
@@ -136,12 +136,7 @@ class Point:
         """How many decimals a value has at most; None for floats, and where a value may have no finite decimal."""
         if self.wire.type.is_float:
             return None
-        denominator = lcm(self.slope.denominator, self.offset.denominator)
-        digits = 0
-        while denominator % 10 == 0 or denominator % 2 == 0 or denominator % 5 == 0:
-            denominator //= 10 if denominator % 10 == 0 else 2 if denominator % 2 == 0 else 5
-            digits += 1
-        return digits if denominator == 1 else None
+        return places(self.slope, self.offset)
 
 
 def point_of(register: Register, known: Surroundings, carries: Carries, fits: Fits) -> Point:

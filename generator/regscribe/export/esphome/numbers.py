@@ -10,7 +10,7 @@ from fractions import Fraction
 from regscribe.dialects.esphome import SPACES, TYPES
 from regscribe.emit.words import one_line, span_words
 from regscribe.export.device import Device, Point
-from regscribe.export.device.numbers import EXACT_SINGLE, decimal, is_exact
+from regscribe.export.device.numbers import EXACT_SINGLE, decimal, is_exact, places
 from regscribe.export.device.points import Fault
 from regscribe.export.device.writes import obstacle, writes_several
 from regscribe.export.esphome.items import Item, Keys
@@ -181,7 +181,9 @@ def each_part(device: Device, point: Point) -> Iterator[Item]:
         said = "its codes have labels" if part.enum else "fault words" if part.sentinels else ""
         if said:
             device.lose(point.register, "fields", Grade.LOST, f"{part.id} is a number: {said}")
+        shown = places(part.multiply, part.add)
         keys = place(point) | {"bitmask": ((1 << part.width) - 1) << part.low}
+        keys |= {"accuracy_decimals": DECIMALS if shown is None else shown}
         filters = [
             *([{"multiply": Plain(decimal(part.multiply))}] if part.multiply != 1 else []),
             *([{"offset": Plain(decimal(part.add))}] if part.add else []),
