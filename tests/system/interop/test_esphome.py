@@ -16,15 +16,16 @@ from regscribe.export.esphome import TARGET
 from regscribe.losses import Exported
 from regscribe.simulate import Running, simulate
 
+from . import odd
 from .install import consumer
 from .stage import MAP, UNIT, Held, Stage, fill, told
 
 pytestmark = pytest.mark.interop("esphome")
 
-DEVICE = "interopone_1"
-NAMED = re.compile(r"'InteropOne-1 (.+?)' >> (.*)")
+DEVICE, ODD = "interopone_1", "oddone_1"
+NAMED = re.compile(r"'(?:InteropOne-1 |(OddOne-1) )(.+?)' >> (.*)")
 COLOURS = re.compile(r"\x1b\[[0-9;]*m")
-PORT = "/dev/placeholder"
+PORT, ODD_PORT = "/dev/placeholder", "/dev/another"
 PATIENCE = 60
 """Seconds until every entity has a state."""
 
@@ -36,6 +37,13 @@ WRITES = f"""\
       - number.set: {{id: {DEVICE}_limit, value: 70000}}
       - number.set: {{id: {DEVICE}_gain, value: -2.5}}
       - select.set: {{id: {DEVICE}_choice, option: slow}}
+      - number.set: {{id: {ODD}_moved, value: 20.5}}
+      - number.set: {{id: {ODD}_thirds, value: 6}}
+      - number.set: {{id: {ODD}_negative, value: 7.5}}
+      - select.set: {{id: {ODD}_way, option: !literal "on ${{q}}"}}
+      - switch.turn_off: {{id: {ODD}_truth}}
+      - switch.turn_off: {{id: {ODD}_several}}
+      - switch.turn_off: {{id: {ODD}_coil}}
       - switch.turn_on: {{id: {DEVICE}_fan}}
 """
 NODE = f"""
@@ -51,9 +59,12 @@ logger:
   level: VERBOSE
 packages:
   device: !include device.yaml
+  odd: !include odd.yaml
 uart:
   - id: !extend {DEVICE}_uart
     port: {PORT}
+  - id: !extend {ODD}_uart
+    port: {ODD_PORT}
 """
 
 
@@ -76,6 +87,7 @@ def folder(made: Exported) -> Path:
     found = consumer("esphome").folder / "node"
     found.mkdir(exist_ok=True)
     (found / "device.yaml").write_text(str(made.texts[""]), encoding="utf-8")
+    (found / "odd.yaml").write_text(odd.text("esphome", every="3"), encoding="utf-8")
     (found / "node.yaml").write_text(NODE, encoding="utf-8")
     return found
 
@@ -89,11 +101,18 @@ def running() -> Iterator[Running]:
 
 
 @pytest.fixture(scope="module")
-def states(folder: Path, running: Running) -> Mapping[str, str]:
+def other() -> Iterator[Running]:
+    """The odd device on another line."""
+    with odd.served("pty") as served:
+        yield served
+
+
+@pytest.fixture(scope="module")
+def states(folder: Path, running: Running, other: Running) -> Mapping[str, str]:
     """The first state of each entity, by what it is called behind the name of the device."""
     log, wanted = folder / "log", names(folder)
     with log.open("wb") as out:
-        command = [str(built(folder, running.path))]
+        command = [str(built(folder, running.path, other.path))]
         home = {**os.environ, "HOME": str(folder)}
         process = subprocess.Popen(command, stdout=out, stderr=subprocess.STDOUT, env=home)  # noqa: S603 (our own)
         try:
@@ -113,23 +132,25 @@ def names(folder: Path) -> set[str]:
     return {one["name"].removeprefix("InteropOne-1 ") for some in lists for one in some}
 
 
-def built(folder: Path, port: str) -> Path:
-    """The program of the node for this machine and this port."""
+def built(folder: Path, port: str, other: str) -> Path:
+    """The program of the node for this machine and these ports."""
     esphome("compile", "--only-generate", str(folder / "node.yaml"))
     source = folder / ".esphome" / "build" / "node" / "src"
     main = source / "main.cpp"
-    main.write_text(main.read_text(encoding="utf-8").replace(PORT, port), encoding="utf-8")
+    text = main.read_text(encoding="utf-8").replace(PORT, port).replace(ODD_PORT, other)
+    main.write_text(text, encoding="utf-8")
     sources = sorted(source.rglob("*.cpp"))
+    newest = max(one.stat().st_mtime for one in source.rglob("*.h"))  # one of them counts the entities
     with ThreadPoolExecutor(os.cpu_count()) as several:
-        objects = list(several.map(lambda one: compiled(one, source), sources))
+        objects = list(several.map(lambda one: compiled(one, source, newest), sources))
     program = folder / "node"
     subprocess.run(["g++", "-o", str(program), *map(str, objects), "-lpthread"], check=True, timeout=120)  # noqa: S603, S607
     return program
 
 
-def compiled(one: Path, source: Path) -> Path:
+def compiled(one: Path, source: Path, newest: float) -> Path:
     made = one.with_suffix(".o")
-    if not made.exists() or made.stat().st_mtime < one.stat().st_mtime or one.name == "main.cpp":
+    if not made.exists() or made.stat().st_mtime < max(newest, one.stat().st_mtime) or one.name == "main.cpp":
         command = ["g++", *FLAGS, f"-I{source}", "-c", str(one), "-o", str(made)]
         subprocess.run(command, check=True, timeout=300)  # noqa: S603 (fixed, no shell)
     return made
@@ -139,7 +160,7 @@ def found(log: Path) -> dict[str, str]:
     first: dict[str, str] = {}
     for line in COLOURS.sub("", log.read_text(encoding="utf-8", errors="replace")).splitlines():
         if said := NAMED.search(line):
-            first.setdefault(said[1], said[2].strip())
+            first.setdefault(" ".join(filter(None, said.group(1, 2))), said[3].strip())
     return first
 
 
@@ -196,6 +217,46 @@ def test_numbers_choices_and_switches_are_written_as_the_map_says(running: Runni
     # 12.5 with one decimal is 125, 70000 is two words, slow is 3
     stored = {path: running.device.state.stored(path) for path in ("setpoint", "limit", "gain", "choice", "fan")}
     assert stored == {"setpoint": 125, "limit": 70000, "gain": Fraction(-5, 2), "choice": 3, "fan": 1}
+
+
+ODD_STATES = {
+    "Low": "154",
+    "High": "139",
+    "Absent": "nan",
+    "Both Signs": "nan",
+    "Broken": "nan",
+    "Wide Bits a": "ON",
+    "Wide Bits b": "OFF",
+    "Wide Bits c": "ON",
+    "Wide Bits d": "ON",
+    "Turned Bits e": "OFF",
+    "Turned Bits f": "ON",
+    "Halves half": "72.5",
+    "Halves on": "ON",
+    "${x} <% y %> !lambda \" ' {{ z }}": "7",
+    "Moved": "-12.50",
+    "Thirds": "3.00",
+    "Negative": "-20.00",
+    "Way": "back (0)",
+    "Truth": "ON",
+    "Several": "ON",
+    "Coil": "ON",
+}
+
+
+def test_bytes_bits_faults_and_hostile_names_of_the_odd_device_are_shown(states: Mapping[str, str]) -> None:
+    assert {name: states.get(f"{odd.NAME} {name}") for name in ODD_STATES} == ODD_STATES
+
+
+@pytest.mark.usefixtures("states")
+def test_settings_of_the_odd_device_are_written_and_no_request_is_too_long(other: Running) -> None:
+    # 60.5 tenths, 6 in steps of 0.3, 7.5 in halves below zero
+    stored = {path: other.device.state.stored(path) for path in ("moved", "thirds", "negative", "way")}
+    assert stored == {"moved": 605, "thirds": 20, "negative": -15, "way": 1}
+    assert [other.device.state.stored(path) for path in ("truth", "several", "coil")] == [0, 0, 0]
+    asked = [request for request in other.requests if request[0] == 3]
+    assert max(int.from_bytes(request[3:5]) for request in asked) == 4
+    assert {request[0] for request in other.requests} == {1, 3, 6, 15, 16}
 
 
 def test_the_version_that_read_it_is_the_one_that_the_output_names() -> None:

@@ -13,6 +13,7 @@ from regscribe.export.home_assistant.sensors import DECIMALS
 from regscribe.losses import Exported
 from regscribe_runtime import SensorFault
 
+from . import odd
 from .install import consumer
 from .stage import UNIT, Stage, staged
 
@@ -83,6 +84,37 @@ def test_a_switch_that_is_turned_on_is_on_in_the_device(tmp_path: Path) -> None:
         found = polled(text, tmp_path, f"{HEAD}fan")
         assert found["states"][f"{HEAD}fan"]["state"] == "on"
         assert stage.running.device.state.stored("fan") == 1
+
+
+ODD = {
+    "low": "154",
+    "high": "139",
+    "signed_low": "-5",
+    "signed_high": "-100",
+    "absent": "unavailable",
+    "both_signs": "unavailable",
+    "broken": "6553.0",  # shown as a value: told
+    "wide_bits": "9223372045444710400",  # 2^63 + 2^33 + 1 in a float of 64 bits: told
+    "turned_bits": "2147483648",
+    "halves": "35408",
+    "hostile": "7",
+    "moved": "-12.5",
+    "thirds": "3.0",
+    "negative": "-20.0",
+    "way": "-1",
+    "truth": "on",
+    "several": "on",
+    "coil": "on",
+}
+
+
+def test_bytes_faults_and_settings_of_the_odd_device_are_shown(tmp_path: Path) -> None:
+    with odd.served() as running:
+        found = polled(odd.text("home-assistant", at=f"{running.host}:{running.port}"), tmp_path)
+    head = f"test/odd:{odd.NAME}:"
+    assert {unique_id.removeprefix(head): one["state"] for unique_id, one in found["states"].items()} == ODD
+    name = found["states"][f"{head}hostile"]["attributes"]["friendly_name"]
+    assert name == odd.NAME + " ${x} <% y %> !lambda \" ' {{ z }}"
 
 
 def test_the_version_that_read_it_is_the_one_that_the_output_names() -> None:
