@@ -27,13 +27,15 @@ class Consumer:
     """A program that reads exports: its name, and what it is made of.
 
     `pip` and `npm` are packages with their versions; what these need besides is what they ask for. `programs` are
-    programs of the system, with the Debian package of each.
+    programs of the system, with the Debian package of each. `unpacked` are Debian packages of which the files are
+    wanted in the folder, and nothing installed.
     """
 
     name: str
     pip: tuple[str, ...] = ()
     npm: tuple[str, ...] = ()
     programs: dict[str, str] = field(default_factory=dict)
+    unpacked: tuple[str, ...] = ()
 
     @property
     def folder(self) -> Path:
@@ -58,7 +60,9 @@ class Consumer:
         if self.missing:
             return False
         stamp = self.folder / ".installed"
-        return not (self.pip or self.npm) or (stamp.is_file() and stamp.read_text(encoding="utf-8") == self.stamp)
+        return not (self.pip or self.npm or self.unpacked) or (
+            stamp.is_file() and stamp.read_text(encoding="utf-8") == self.stamp
+        )
 
     @property
     def stamp(self) -> str:
@@ -74,6 +78,7 @@ CONSUMERS = (
     Consumer("esphome", pip=("esphome==2026.6.5",)),
     Consumer("zabbix-agent2", programs={"zabbix_agent2": "zabbix-agent2", "node": "nodejs"}),
     Consumer("pymodbus-simulator", pip=("pymodbus==3.16.1", "aiohttp")),
+    Consumer("zabbix-frontend", programs={"php": "php-cli"}, unpacked=("zabbix-frontend-php",)),
     Consumer("promtool", programs={"promtool": "prometheus"}),
     Consumer("asyncua", pip=("asyncua==2.1.0",)),
     Consumer("node-red", npm=("node-red@4.1.15", "node-red-contrib-modbus@5.23.3"), programs=NODE),
@@ -93,12 +98,13 @@ def install(consumers: tuple[Consumer, ...]) -> None:
     if packages := tuple(dict.fromkeys(package for one in wanted for package in one.missing)):
         _debian(packages)
     for one in wanted:
-        if one.pip or one.npm:
+        if one.pip or one.npm or one.unpacked:
             begun = time.monotonic()
             shutil.rmtree(one.folder, ignore_errors=True)
             one.folder.mkdir(parents=True)
             _venv(one)
             _modules(one)
+            _unpack(one)
             (one.folder / ".installed").write_text(one.stamp, encoding="utf-8")
             print(f"installed {one.name} in {time.monotonic() - begun:.0f} s", flush=True)  # noqa: T201 (a program of its own)
 
@@ -127,11 +133,22 @@ def _modules(one: Consumer) -> None:
         _run(["npm", "install", *options, *one.npm], f"npm install {' '.join(one.npm)}")
 
 
-def _run(command: list[str], what: str, environment: dict[str, str] | None = None) -> None:
+def _unpack(one: Consumer) -> None:
+    if one.unpacked and os.geteuid() == 0:
+        _run(["apt-get", "update", "-qq"], "apt-get update")
+    for package in one.unpacked:
+        _run(["apt-get", "download", "-qq", package], f"apt-get download {package}", folder=one.folder)
+        (file,) = one.folder.glob(f"{package}_*.deb")
+        _run(["dpkg", "-x", str(file), str(one.folder)], f"dpkg -x {file} {one.folder}")
+        file.unlink()
+
+
+def _run(command: list[str], what: str, environment: dict[str, str] | None = None, folder: Path | None = None) -> None:
     """Run an installer, which says something only if it fails; that ends the program."""
     done = subprocess.run(  # noqa: S603 (fixed programs, no shell)
         command,
         env=environment,
+        cwd=folder,
         stdin=subprocess.DEVNULL,
         stdout=subprocess.PIPE,
         stderr=subprocess.STDOUT,
