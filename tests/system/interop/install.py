@@ -121,10 +121,35 @@ def _debian(packages: tuple[str, ...]) -> None:
 
 
 def _venv(one: Consumer) -> None:
-    if one.pip:
-        _run([sys.executable, "-m", "venv", str(one.folder / "venv")], f"making the venv of {one.name}")
-        options = ["--quiet", "--disable-pip-version-check", "--no-input"]
-        _run([str(one.python), "-m", "pip", "install", *options, *one.pip], f"pip install {' '.join(one.pip)}")
+    if not one.pip:
+        return
+    _run([sys.executable, "-m", "venv", str(one.folder / "venv")], f"making the venv of {one.name}")
+    if _quickly(one):
+        return
+    options = ["--quiet", "--disable-pip-version-check", "--no-input"]
+    _run([str(one.python), "-m", "pip", "install", *options, *one.pip], f"pip install {' '.join(one.pip)}")
+
+
+def _quickly(one: Consumer) -> bool:
+    """Install by uv, which takes a tenth of the time of pip; False where it is not to be had, or cannot."""
+    uv = CACHE / "uv" / "bin" / "uv"
+    if not uv.exists():
+        made = _tried([sys.executable, "-m", "venv", str(CACHE / "uv")])
+        if not (made and _tried([str(CACHE / "uv" / "bin" / "pip"), "install", "--quiet", "uv"])):
+            return False
+    return _tried([str(uv), "pip", "install", "--quiet", "--python", str(one.python), *one.pip])
+
+
+def _tried(command: list[str]) -> bool:
+    done = subprocess.run(  # noqa: S603 (fixed programs, no shell)
+        command,
+        stdin=subprocess.DEVNULL,
+        stdout=subprocess.DEVNULL,
+        stderr=subprocess.DEVNULL,
+        timeout=PATIENCE,
+        check=False,
+    )
+    return done.returncode == 0
 
 
 def _modules(one: Consumer) -> None:
