@@ -68,7 +68,8 @@ class Edits:
     def done(self) -> str:
         """The text with all changes; those at one place in the order in which they were asked for."""
         text = self.text
-        for start, end, new in sorted(reversed(self.changes), key=lambda change: change[0], reverse=True):
+        order = sorted(range(len(self.changes)), key=lambda index: (self.changes[index][0], index), reverse=True)
+        for start, end, new in (self.changes[index] for index in order):
             text = text[:start] + new + text[end:]
         return text
 

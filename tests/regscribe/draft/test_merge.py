@@ -3,7 +3,8 @@
 import pytest
 
 from regscribe import source
-from regscribe.draft.merge import Change, Merged, merge, restored, stored
+from regscribe.draft.differences import Change, Merged
+from regscribe.draft.merge import merge, restored, stored
 from regscribe.source import Document
 
 HEAD = "format: 1\nmap: {id: acme/pump, title: Pump, maker: Acme, class_prefix: Acme}\nmodels: {Basic: {}}\n"

@@ -2,7 +2,7 @@
 
 from typing import Any
 
-from regscribe.cli.shared.import_run import _check
+from regscribe.cli.shared.import_source import check
 from regscribe.cli.shared.map_heads import head_of
 from regscribe.draft import Draft, Entry, Outcome
 from regscribe.draft.settle import settle
@@ -13,7 +13,7 @@ def settled(*registers: dict[str, Any]) -> Draft:
     entries = tuple(
         Entry(name=str(keys["name"]), place=Span("list.csv", line), keys=keys) for line, keys in enumerate(registers, 2)
     )
-    found, _, checked = settle(Draft(entries=entries), head_of("acme/pump"), _check)
+    found, _, checked = settle(Draft(entries=entries), head_of("acme/pump"), check)
     assert [one for one in checked if one.severity is Severity.ERROR] == []
     return found
 

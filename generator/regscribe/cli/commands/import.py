@@ -8,7 +8,8 @@ import click
 
 from regscribe import plugins
 from regscribe.cli.shared.draft_report import FORMS, report_of
-from regscribe.cli.shared.import_run import Run, check_free, code_of, data_of, mapping_of, recognised
+from regscribe.cli.shared.import_run import Run, code_of
+from regscribe.cli.shared.import_source import check_free, data_of, mapping_of, recognised
 from regscribe.cli.shared.long_work import progress
 from regscribe.cli.shared.output import raised_as, refuse, tell, warn
 from regscribe.cli.shared.plugin_options import PluginCommand, own_options

@@ -7,7 +7,7 @@ from dataclasses import asdict
 from regscribe.cli.shared.diagnostic_text import count
 from regscribe.cli.shared.report_formats import as_sarif
 from regscribe.draft import Draft, Entry, Outcome, Recognised
-from regscribe.draft.merge import Change, Note
+from regscribe.draft.differences import Change, Note
 from regscribe.model import Diagnostic, Severity
 from regscribe.visible import json_text, safe
 

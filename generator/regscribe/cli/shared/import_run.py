@@ -1,32 +1,24 @@
 """The steps of an import: what a source and a mapping say becomes a draft, a text that passes `check`, and files."""
 
-import re
-import sys
-import tempfile
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from pathlib import Path
 
 from regscribe import plugins, source
-from regscribe.cli.shared.map_heads import head_of, is_part, parts_of
-from regscribe.cli.shared.output import refuse
+from regscribe.cli.shared.import_source import check, check_at, id_for
+from regscribe.cli.shared.map_heads import head_of
 from regscribe.draft import Draft, Outcome
+from regscribe.draft.differences import Change, Note
 from regscribe.draft.fixes import fixed
-from regscribe.draft.mapping import ImportMapping, begun, load
+from regscribe.draft.mapping import ImportMapping, begun
 from regscribe.draft.mapping import stored as store_mapping
-from regscribe.draft.merge import Change, Note, merge, stored
+from regscribe.draft.merge import merge, stored
 from regscribe.draft.settle import settle
 from regscribe.draft.text import Written
 from regscribe.files import FileError, save
 from regscribe.model import Diagnostic, Severity, Span
-from regscribe.model.identifiers import snake
-from regscribe.pipeline import compile_map
-from regscribe.plugins import IMPORTERS, OptionError
+from regscribe.plugins import OptionError
 from regscribe.source import Document
-
-STDIN = "-"
-MOST_BYTES = 64 * 1024 * 1024
-"""Far beyond any list of registers."""
 
 BYTE_ORDER_MARK = "\ufeff"
 
@@ -69,8 +61,8 @@ class Run:
             raise OptionError(message)
         if self.draft.failed:
             return
-        head = head_of(map_id or _id_for(self.draft, out, self.name), title=self.draft.title, maker=self.draft.maker)
-        self.draft, written, checked = settle(self.draft, head, _check)
+        head = head_of(map_id or id_for(self.draft, out, self.name), title=self.draft.title, maker=self.draft.maker)
+        self.draft, written, checked = settle(self.draft, head, check)
         if not any(entry.keys is not None for entry in self.draft.entries):
             self.found = (*self.draft.findings, _nothing(self.name))
             return
@@ -94,7 +86,7 @@ class Run:
             self.found = (*self.found, *wrong)
             return None
         merged = merge(self.mapping.imported, _document(self.written.text), ours)
-        checked = _errors(_check_at(merged.text, out))
+        checked = _errors(check_at(merged.text, out))
         self.notes, self.found = tuple(map(self._placed, merged.notes)), (*self.found, *checked)
         return None if checked else _like(merged.text, ours.text, raw, out)
 
@@ -128,59 +120,6 @@ def code_of(run: Run) -> int:
     return int(failed or left_out or any(note.change is Change.KEPT for note in run.notes))
 
 
-def data_of(origin: str) -> tuple[bytes, str]:
-    """Return the bytes of the source and what messages call it. Raises click.UsageError."""
-    try:
-        if origin == STDIN:
-            data, name = sys.stdin.buffer.read(MOST_BYTES + 1), "stdin"
-        else:
-            with Path(origin).open("rb") as file:
-                data, name = file.read(MOST_BYTES + 1), origin
-    except (OSError, ValueError) as error:
-        refuse(f"cannot read {origin}: {getattr(error, 'strerror', None) or error}")
-    if len(data) > MOST_BYTES:
-        refuse(f"{name} has more than {MOST_BYTES} bytes, which no list of registers has")
-    return data, name
-
-
-def mapping_of(path: Path | None) -> ImportMapping:
-    """Return the mapping in a file, an empty one without. Raises FileError."""
-    return ImportMapping() if path is None else load(path)
-
-
-def check_free(path: Path | None, mapping: Path | None) -> None:
-    """Raise OptionError where a new mapping would take the place of another file than the mapping itself."""
-    if path is not None and path != mapping and path.exists():
-        message = f"{path} exists; nothing of it was changed. Use it with --mapping, or choose another name"
-        raise OptionError(message)
-
-
-def recognised(data: bytes, name: str) -> str:
-    """Return the form of the source. Raises OptionError where that is not sure."""
-    found = plugins.recognise(data, name)
-    if len(found) == 1:
-        return found[0]
-    known = ", ".join(plugins.names(IMPORTERS))
-    if found:
-        message = f"{name} may be {' or '.join(found)}: say with --format which"
-    else:
-        message = f"nothing here reads {name}: say with --format what it is, of {known}"
-    raise OptionError(message)
-
-
-def _id_for(draft: Draft, out: Path | None, name: str) -> str:
-    """The id of a map that nobody named: by the path of the map, what the source says, or the name of its file."""
-    if out is not None and is_part(out.parent.name) and is_part(out.stem):
-        return f"{out.parent.name}/{out.stem}"
-    family = _part(draft.title) or _part(Path(name).stem) or "device"
-    return "/".join(parts_of(f"{_part(draft.maker) or 'imported'}/{family}"))
-
-
-def _part(text: str) -> str:
-    found = re.sub(r"_+", "-", snake(text))[:40].strip("-")
-    return found if is_part(found) else ""
-
-
 def _nothing(name: str) -> Diagnostic:
     message = "no row of it became a register, so no map is written; the reasons stand with the rows"
     return Diagnostic("import/nothing", message, Span(name))
@@ -188,21 +127,6 @@ def _nothing(name: str) -> Diagnostic:
 
 def _errors(found: Sequence[Diagnostic]) -> tuple[Diagnostic, ...]:
     return tuple(one for one in found if one.severity is Severity.ERROR)
-
-
-def _check(text: str) -> Sequence[Diagnostic]:
-    with tempfile.TemporaryDirectory() as folder:
-        path = Path(folder) / "map.yaml"
-        path.write_text(text, encoding="utf-8")
-        return compile_map(path).diagnostics
-
-
-def _check_at(text: str, out: Path) -> Sequence[Diagnostic]:
-    """Check a text in the place of a map, where it finds what it extends and uses; the map itself stays as it is."""
-    with tempfile.NamedTemporaryFile("w", suffix=".yaml", prefix=".", dir=out.parent, encoding="utf-8") as file:
-        file.write(text)
-        file.flush()
-        return compile_map(Path(file.name)).diagnostics
 
 
 def _document(text: str) -> Document:

@@ -8,7 +8,7 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from regscribe.cli.shared.import_run import _check
+from regscribe.cli.shared.import_source import check
 from regscribe.cli.shared.map_heads import head_of
 from regscribe.draft import Draft, Outcome
 from regscribe.draft.settle import settle
@@ -452,10 +452,10 @@ def test_no_table_raises_and_each_register_has_a_reason_or_keys(heads: list[str]
     ),
     st.lists(st.lists(CELLS, min_size=3, max_size=9), min_size=1, max_size=6),
 )
-def test_what_is_made_of_any_table_passes_check(heads: list[str], rows: list[list[str]]) -> None:
+def test_what_is_made_of_any_table_passescheck(heads: list[str], rows: list[list[str]]) -> None:
     lines = [heads, *([str(at), *row] for at, row in enumerate(rows))]
     quoted = [['"' + cell.replace('"', '""') + '"' for cell in line] for line in lines]
     found = draft("\n".join(map(",".join, quoted)).encode(errors="replace"), type="uint16")
-    settled, written, _ = settle(found, head_of("acme/pump"), _check)
+    settled, written, _ = settle(found, head_of("acme/pump"), check)
     if any(entry.keys is not None for entry in settled.entries):
-        assert [one for one in _check(written.text) if one.severity is Severity.ERROR] == [], written.text
+        assert [one for one in check(written.text) if one.severity is Severity.ERROR] == [], written.text
