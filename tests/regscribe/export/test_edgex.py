@@ -228,3 +228,16 @@ def test_a_coil_with_a_scale_is_left_out(export: Export, small: Small) -> None:
     text = small("at: 0, name: A", "at: 3, name: C, space: coil, kind: number, multiply: 10")
     (loss,) = [one for one in export("edgex", text).losses if one.fact == "register"]
     assert (loss.register, loss.done) == ("c", "left out: a bit has no scale")
+
+
+def test_labels_are_told_in_place_of_codes_by_mappings(profile: Profile) -> None:
+    made = profile(
+        "at: 0, name: Mode, enum: {-1: falling, 1: 'on'}",
+        "at: 0, name: Valve, space: coil, enum: {0: closed, 1: opened}",
+        "at: 1, name: S, type: uint16, access: r, fields: {zone: {bits: 4..7, enum: {1: north}}}",
+    )
+    assert made["deviceCommands"][0]["resourceOperations"] == [
+        {"deviceResource": "mode", "mappings": {"-1": "falling", "1": "on"}},
+        {"deviceResource": "valve", "mappings": {"false": "closed", "true": "opened"}},
+        {"deviceResource": "s_zone", "mappings": {"1": "north"}},
+    ]

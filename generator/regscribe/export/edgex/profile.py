@@ -19,12 +19,14 @@ def profile(device: Device) -> str:
     """Return the profile as YAML."""
     names = Names()
     resources: list[Plain] = []
-    groups: dict[str, list[str]] = {}
+    groups: dict[str, list[Plain]] = {}
     for point in device.points:
         for resource in resources_of(device, point, names):
-            resources.append(resource)
-            if "R" in resource["properties"]["readWrite"] and point.register.group:
-                groups.setdefault(point.register.group, []).append(resource["name"])
+            resources.append(resource.said)
+            if "R" in resource.said["properties"]["readWrite"] and point.register.group:
+                operation = files.OneLine(deviceResource=resource.said["name"])
+                operation |= {"mappings": files.OneLine(resource.labels)} if resource.labels else {}
+                groups.setdefault(point.register.group, []).append(operation)
     said = {
         "name": device.name.replace(".", "-"),
         "manufacturer": one_line(device.register_map.maker),
@@ -37,7 +39,7 @@ def profile(device: Device) -> str:
     return files.dump({key: value for key, value in said.items() if value}, remarks=device.heading)
 
 
-def _commands(groups: dict[str, list[str]], names: Names) -> Iterator[Plain]:
+def _commands(groups: dict[str, list[Plain]], names: Names) -> Iterator[Plain]:
     """Yield the commands; a name that a resource has would hide it, so none has it twice."""
     for group, members in groups.items():
         for some in _parts(members):
@@ -45,10 +47,10 @@ def _commands(groups: dict[str, list[str]], names: Names) -> Iterator[Plain]:
                 "name": names.give(group),
                 "isHidden": False,
                 "readWrite": "R",
-                "resourceOperations": [files.OneLine(deviceResource=name) for name in some],
+                "resourceOperations": list(some),
             }
 
 
-def _parts(members: Sequence[str]) -> Iterator[Sequence[str]]:
+def _parts(members: Sequence[Plain]) -> Iterator[Sequence[Plain]]:
     for first in range(0, len(members), MOST_OPERATIONS):
         yield members[first : first + MOST_OPERATIONS]

@@ -1,9 +1,9 @@
 """The resources of a point: a number, a text or a bit, and each part of a word by mask and shift."""
 
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator, Mapping
 from decimal import Decimal
 from fractions import Fraction
-from typing import Any
+from typing import Any, NamedTuple
 
 from regscribe import files
 from regscribe.dialects.edgex import BOOL, RAW_TYPES, SWAPS, TABLES, TYPES
@@ -22,7 +22,14 @@ UNSIGNED = {WireType.INT16: WireType.UINT16, WireType.INT32: WireType.UINT32, Wi
 PATTERNS = frozenset({Kind.FLAGS, Kind.FIELDS})
 
 
-def resources_of(device: Device, point: Point, names: Names) -> Iterator[Plain]:
+class Resource(NamedTuple):
+    """A resource as the profile has it, and the labels of its codes, which a command tells in their place."""
+
+    said: Plain
+    labels: Mapping[str, str] = {}
+
+
+def resources_of(device: Device, point: Point, names: Names) -> Iterator[Resource]:
     """Yield the resources of a point, and tell what they lose."""
     register, written = point.register, _is_written(device, point)
     _tell(device, point)
@@ -62,7 +69,7 @@ def _write_function(point: Point) -> int:
     return 6 if point.words == 1 else 16
 
 
-def _value(device: Device, point: Point, name: str, access: str, address: int) -> Plain:
+def _value(device: Device, point: Point, name: str, access: str, address: int) -> Resource:
     kind = UNSIGNED.get(point.wire.type, point.wire.type) if point.register.kind in PATTERNS else point.wire.type
     attributes: Plain = {"primaryTable": TABLES[point.wire.space], "startingAddress": address}
     properties: Plain = {"valueType": TYPES.get(kind, BOOL), "readWrite": access}
@@ -77,7 +84,10 @@ def _value(device: Device, point: Point, name: str, access: str, address: int) -
         properties |= _scale(point, kind, attributes)
     properties |= _range(device, point) if "W" in access else {}
     properties |= {"units": point.unit} if point.unit else {}
-    return _resource(name, _description(point), attributes, properties)
+    codes = {one.code: one.label for one in point.members}
+    return _resource(
+        name, _text((point.register.name, point.register.description), codes), attributes, properties, codes
+    )
 
 
 def _scale(point: Point, kind: WireType, attributes: Plain) -> Plain:
@@ -109,12 +119,11 @@ def _range(device: Device, point: Point) -> Plain:
     return {"minimum": _number(min(ends)), "maximum": _number(max(ends))}
 
 
-def _part(point: Point, part: BitField, name: str) -> Plain:
+def _part(point: Point, part: BitField, name: str) -> Resource:
     """A part of a word: a bit by its place, a wider one by mask and shift, which count in this order."""
     attributes: Plain = {"primaryTable": TABLES[point.wire.space]}
-    text = f"{point.register.name}: {part.label}"
-    codes = ", ".join(f"{code} = {label}" for code, label in part.enum.labels.items()) if part.enum else ""
-    text = "; ".join(filter(None, (text, codes)))
+    codes = part.enum.labels if part.enum else {}
+    text = _text((f"{point.register.name}: {part.label}",), codes)
     if part.width == 1 and not part.enum:
         word, bit = divmod(part.low, WORD)
         further = word if point.wire.words is Order.LITTLE else point.words - 1 - word
@@ -124,7 +133,7 @@ def _part(point: Point, part: BitField, name: str) -> Plain:
     attributes |= {"startingAddress": point.address} | _swaps(point)
     mask = ((1 << part.width) - 1) << part.low
     properties: Plain = {"valueType": TYPES[kind], "readWrite": "R", "mask": mask}
-    return _resource(name, text, attributes, properties | ({"shift": part.low} if part.low else {}))
+    return _resource(name, text, attributes, properties | ({"shift": part.low} if part.low else {}), codes)
 
 
 def _turned(bit: int, point: Point) -> int:
@@ -137,14 +146,21 @@ def _swaps(point: Point) -> Plain:
     return ({"isByteSwap": True} if byte else {}) | ({"isWordSwap": True} if word else {})
 
 
-def _resource(name: str, description: str, attributes: Plain, properties: Plain) -> Plain:
-    said = {"name": name, "isHidden": False, "description": one_line(description)}
-    return {**said, "attributes": files.OneLine(attributes), "properties": properties}
+def _resource(
+    name: str, description: str, attributes: Plain, properties: Plain, codes: Mapping[int, str] | None = None
+) -> Resource:
+    said = {"name": name, "isHidden": False, "description": description}
+    is_bool = properties["valueType"] == BOOL
+    labels = {
+        str(bool(code)).lower() if is_bool else str(code): one_line(label) for code, label in (codes or {}).items()
+    }
+    return Resource({**said, "attributes": files.OneLine(attributes), "properties": properties}, labels)
 
 
-def _description(point: Point) -> str:
-    codes = ", ".join(f"{one.code} = {one.label}" for one in point.members)
-    return "; ".join(filter(None, (point.register.name, point.register.description, codes)))
+def _text(said: Iterable[str], codes: Mapping[int, str]) -> str:
+    """A description, with the labels of codes."""
+    labels = ", ".join(f"{code} = {label}" for code, label in codes.items())
+    return one_line("; ".join(filter(None, (*said, labels))))
 
 
 def _number(number: Fraction) -> int | Decimal:
@@ -156,7 +172,8 @@ def _tell(device: Device, point: Point) -> None:
     if register.kind is Kind.BOOLEAN and not point.wire.space.is_bits:
         device.lose(register, "truth-of-words", Grade.WRONG, "its lowest bit counts, or any number is told as it is")
     if point.members:
-        device.lose(register, "enum", Grade.COSMETIC, "labels stand in the description, the value is the code")
+        done = "labels are told in place of codes, and stand in the description; codes are written"
+        device.lose(register, "enum", Grade.COSMETIC, done)
     for number in (point.slope, point.offset):
         if not is_exact(number):
             device.lose(register, "scale-rounded", Grade.COSMETIC, f"{decimal(number)} for {show(number)}")
