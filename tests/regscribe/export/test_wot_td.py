@@ -166,7 +166,8 @@ def test_named_bits_of_swapped_words_are_where_they_stand_on_the_wire(said: Call
 def test_parts_that_lie_apart_on_the_wire_are_a_whole_number(export: Export, small: Small) -> None:
     text = small("at: 7, name: X, access: r, type: uint16, byte_order: little, fields: {wide: {bits: 4..11}}")
     made = export("wot-td", text, at=AT)
-    assert json.loads(made.texts[""])["properties"]["x"]["type"] == "integer"
+    found = json.loads(made.texts[""])["properties"]["x"]
+    assert (found["type"], content(found)) == ("integer", "length=2;signed=false;byteSeq=BIG_ENDIAN_BYTE_SWAP")
     assert [one.done for one in made.losses if one.fact == "fields"] == [
         "exported as a whole number: the bits of wide are not side by side"
     ]

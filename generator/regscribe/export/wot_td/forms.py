@@ -9,6 +9,7 @@ from urllib.parse import quote
 
 from regscribe.export.device import Device, Point
 from regscribe.export.device.places import write_functions
+from regscribe.export.wot_td.parts import is_object
 from regscribe.model import Kind, Order, Space, WireType
 
 ENTITIES = {
@@ -48,13 +49,13 @@ MOST_BYTES = 6
 """The longest whole number that node-wot reads."""
 
 SEVERAL = {Space.COIL: "writeMultipleCoils", Space.HOLDING: "writeMultipleHoldingRegisters"}
-OBJECTS = frozenset({Kind.FLAGS, Kind.FIELDS})
+PATTERNS = frozenset({Kind.FLAGS, Kind.FIELDS})
 
 
 def reads_whole(point: Point) -> bool:
     """Whether node-wot reads a whole number of this length (or it is none)."""
     wire_type = point.wire.type
-    return wire_type.is_float or wire_type.is_octets or 2 * point.words <= MOST_BYTES or point.register.kind in OBJECTS
+    return wire_type.is_float or wire_type.is_octets or 2 * point.words <= MOST_BYTES or is_object(point)
 
 
 def why_read_only(device: Device, point: Point) -> str:
@@ -64,7 +65,7 @@ def why_read_only(device: Device, point: Point) -> str:
     swapped = wire.space.is_words and "SWAP" in BYTE_SEQUENCES[wire.words, wire.bytes]  # type: ignore[index]  # it fits
     reasons = {
         "it is not written in the form in which it is read": point.write is None,
-        "its parts share a word with others": register.kind in OBJECTS,
+        "its parts share a word with others": register.kind in PATTERNS,
         "a version is not written as a number": register.kind is Kind.VERSION,
         "node-wot does not fill a text up": register.kind is Kind.STRING,
         "a write needs commands around it": register.unlock or register.apply,
@@ -117,10 +118,10 @@ def _content_type(point: Point) -> str:
     if wire.type is WireType.STRING:
         what = f"charset={CHARSETS[point.register.text.encoding]}"
     else:
-        signed = (wire.type.is_float or wire.type.minimum < 0) and point.register.kind not in OBJECTS
+        signed = (wire.type.is_float or wire.type.minimum < 0) and point.register.kind not in PATTERNS
         what = f"signed={str(signed).lower()}"
     # the places of parts are those on the wire, so that no byte of them is to be moved
-    order = PLAIN if point.register.kind in OBJECTS else BYTE_SEQUENCES[wire.words, wire.bytes]  # type: ignore[index]  # it fits
+    order = PLAIN if is_object(point) else BYTE_SEQUENCES[wire.words, wire.bytes]  # type: ignore[index]  # it fits
     return f"application/octet-stream;length={2 * point.words};{what};byteSeq={order}"
 
 

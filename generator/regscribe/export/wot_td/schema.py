@@ -7,7 +7,8 @@ from typing import Any
 
 from regscribe.emit.words import conversion_words, labels_of
 from regscribe.export.device import Device, Point
-from regscribe.export.device.places import places_of, step_of
+from regscribe.export.device.places import step_of
+from regscribe.export.wot_td.parts import is_object, offsets_of
 from regscribe.losses import Grade
 from regscribe.model import BitField, Conversion, Kind, Number, Sentinel, exact, show
 
@@ -140,10 +141,9 @@ def _special(device: Device, point: Point) -> Schema:
 
 def _parts(device: Device, point: Point) -> Schema:
     """An object of the parts, by the places of their bits on the wire, where these lie side by side."""
-    places = places_of(point)
-    offsets = {field.id: _offset(field, places) for field in point.fields}
-    scattered = [name for name, offset in offsets.items() if offset is None]
-    if scattered or not offsets:
+    offsets = offsets_of(point)
+    if not is_object(point):
+        scattered = [name for name, offset in offsets.items() if offset is None]
         fact = "flags" if point.register.kind is Kind.FLAGS else "fields"
         done = f"exported as a whole number: the bits of {', '.join(scattered) or 'no part'} are not side by side"
         device.lose(point.register, fact, Grade.LOST, done)
@@ -153,15 +153,6 @@ def _parts(device: Device, point: Point) -> Schema:
         for field in point.fields
     }
     return {"type": "object", "properties": properties}
-
-
-def _offset(field: BitField, places: list[int]) -> int | None:
-    """The place of the part's highest bit on the wire, counted from the first; None if its bits lie apart."""
-    where = []
-    for bit in range(field.high, field.low - 1, -1):
-        above, within = divmod(bit, 8)
-        where.append(8 * places[len(places) - 1 - above] + 7 - within)
-    return where[0] if where == list(range(where[0], where[0] + len(where))) else None
 
 
 def _part(device: Device, point: Point, field: BitField) -> Schema:
