@@ -26,13 +26,13 @@ AT = "10.0.0.7:502"
 CARRIES = {form: one.carries for form, one in declared().items()}
 IDS = [fact.id for fact in (*FACTS, *DEVICE_FACTS)]
 
+ONE_BY_ONE = ("collectd", "edgex", "home-assistant", "modbus-exporter", "zabbix")
+READERS = ("modbus-exporter", "telegraf", "zabbix")
+WORDS = ("boolean", "padding", "version", "date")
 HOLDS_BY_ITSELF = {
-    ("collectd", "limits"): "each register is a request of its own",
-    ("home-assistant", "limits"): "each register is a request of its own",
-    **{
-        ("pymodbus-simulator", one): "words mean what the reader knows"
-        for one in ("boolean", "padding", "version", "date")
-    },
+    **{(form, "limits"): "each register is a request of its own" for form in ONE_BY_ONE},
+    **{(form, "functions"): "it reads by the function of the space, and writes nothing" for form in READERS},
+    **{("pymodbus-simulator", fact): "words mean what the reader knows" for fact in WORDS},
 }
 """What a format carries without a sign of it in the export, and why."""
 
