@@ -98,7 +98,9 @@ def _address(of: Keys) -> tuple[int, int | None]:
 
 def _form(point: Point, bit: int | None, of: Keys, value: Keys) -> Point:
     told = value.text("valueType")
+    value.drop("defaultValue", "what EdgeX writes where nothing is given, not what the device begins with")
     if told.lower() == BOOL.lower():
+        value.taken |= {"scale", "offset", "minimum", "maximum"}  # EdgeX leaves truth values alone
         if point.space.is_bits:
             return replace(point, type=WireType.BIT)
         return replace(point, bits=(bit or 0, bit or 0))
@@ -145,7 +147,6 @@ def _scaled(point: Point, value: Keys, *, whole_only: bool) -> Point:
     multiply = Fraction(1) if multiply == 0 else multiply
     multiply = None if multiply is None else multiply * factor
     low, high = value.number("minimum"), value.number("maximum")
-    value.drop("defaultValue", "what EdgeX writes where nothing is given, not what the device begins with")
     limits = {} if low is None or high is None else {"range": f"{show(low)}..{show(high)}"}
     if (low is None) != (high is None):
         value.drop("minimum", "there is no maximum beside it")

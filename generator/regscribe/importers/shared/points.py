@@ -125,6 +125,8 @@ def field_of(point: Point) -> OneLine:
         keys["multiply"] = plain(point.multiply or Fraction(1))
     if point.add:
         keys["add"] = plain(point.add)
+    if point.multiply is None:  # a raw number, which has neither unit nor limits in one
+        return OneLine(keys | {key: value for key, value in point.more.items() if key in {"description", "when"}})
     keys |= {"unit": point.symbol} if point.symbol else {}
     return OneLine(keys | {key: value for key, value in point.more.items() if key in OF_FIELDS})
 

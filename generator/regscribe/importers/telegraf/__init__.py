@@ -38,7 +38,7 @@ class Field(NamedTuple):
 
 def likeness(data: bytes, name: str) -> Likeness:  # noqa: ARG001 - the contract of importers
     """Surely, by the head of the table."""
-    return Likeness.SURE if has(data, r"^\s*\[\[\s*inputs\s*\.\s*modbus\s*\]\]") else Likeness.NO
+    return Likeness.SURE if has(data, r"^\s*\[\[\s*inputs\s*\.\s*modbus\s*(\.\s*\w+\s*)?\]\]") else Likeness.NO
 
 
 @reads
