@@ -21,6 +21,9 @@ from regscribe.importers.table.whole import Whole, whole_of
 from regscribe.importers.table.workbooks import ALL
 from regscribe.model import Diagnostic
 
+STDIN = "stdin"
+"""What the command calls a source that has no name."""
+
 SHOWN = 3
 """Rows that are shown where no header is found."""
 
@@ -58,7 +61,7 @@ def draft_of(grids: Sequence[Grid], choices: Choices, name: str) -> Draft:
         entries=tuple(entry for draft in drafts for entry in draft.entries),
         head=_head(drafts, name),
         groups={group: keys for draft in drafts for group, keys in draft.groups.items()},
-        title=PurePath(name).stem if name != "stdin" else "",
+        title=PurePath(name).stem if name != STDIN else "",
         stated=(*(text for draft in drafts for text in draft.stated), *_passed_over(passed)),
         findings=tuple(one for draft in drafts for one in draft.findings),
         recognised=tuple(one for draft in drafts for one in draft.recognised),
@@ -87,7 +90,8 @@ def _pairs(page: Page) -> Iterator[str]:
 
 def _head(drafts: Sequence[Draft], name: str) -> dict[str, Any]:
     units = {unit: keys for draft in drafts for unit, keys in draft.head.get("units", {}).items()}
-    return {"manual": {"title": PurePath(name).name}, **({"units": units} if units else {})}
+    manual = {"manual": {"title": PurePath(name).name}} if name != STDIN else {}
+    return {**manual, **({"units": units} if units else {})}
 
 
 def _passed_over(grids: Sequence[Grid]) -> Iterator[str]:
@@ -137,7 +141,7 @@ def _drafted(page: Page, choices: Choices) -> Draft:
     return Draft(
         entries=entries,
         head={"units": units} if units else {},
-        groups={entry.group: {"source": _source(page)} for entry in entries},
+        groups={entry.group: {"source": source} for entry in entries} if (source := _source(page)) else {},
         stated=(*_stated(page, layout, whole, made, choices), *filter(None, [counted])),
         findings=(*page.grid.findings, *layout.findings, *detected, *_unread(page)),
         recognised=tuple(Recognised(*column.shown) for column in page.columns),
@@ -146,7 +150,9 @@ def _drafted(page: Page, choices: Choices) -> Draft:
 
 
 def _source(page: Page) -> str:
-    return f"sheet {page.title}" if page.title else PurePath(page.grid.name).name
+    """Where the registers stand, for the docs; empty where the source has no name."""
+    name = PurePath(page.grid.name).name if page.grid.name != STDIN else ""
+    return f"sheet {page.title}" if page.title else name
 
 
 def _unread(page: Page) -> Iterator[Diagnostic]:
@@ -178,4 +184,5 @@ def _stated(page: Page, layout: Layout, whole: Whole, made: Sequence[Made], choi
     if "access" not in whole.headings and choices.access is None:
         yield f"{where}no column says whether registers can be written: all are read only here (--access)"
     if layout.headers:
-        yield f"{where}the header is repeated in {layout.headers} rows, which are passed over"
+        rows = "1 row, which is" if layout.headers == 1 else f"{layout.headers} rows, which are"
+        yield f"{where}the header is repeated in {rows} passed over"

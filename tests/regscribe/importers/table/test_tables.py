@@ -81,11 +81,16 @@ def test_headings_are_known_in_several_languages(header: str) -> None:
     assert keys(found)[0] == {"at": 0, **expected}
 
 
+def test_what_comes_from_a_clipboard_has_no_name_to_be_cited() -> None:
+    found = draft("Address\tName\tType\tAccess\n0\tSpeed\tU16\tR\n", "stdin")
+    assert (found.title, dict(found.head), dict(found.groups)) == ("", {}, {})
+
+
 def test_a_header_is_found_below_notes_and_its_repetitions_are_dropped() -> None:
     text = "Acme pump\n,,,\nValid for type 3,,,\n" + PLAIN + "0,Speed,U16,R\n" + PLAIN + "1,Flow,U16,R\n"
     found = draft(text)
     assert [row and row["at"] for row in keys(found)] == [0, 1]
-    assert "the header is repeated in 1 rows, which are passed over" in found.stated
+    assert "the header is repeated in 1 row, which is passed over" in found.stated
 
 
 def test_a_header_of_two_rows_is_one() -> None:

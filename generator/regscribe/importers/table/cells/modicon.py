@@ -36,7 +36,7 @@ def modicon_rule(
         return None
     digits = "".join(sorted({one.digits[0] for one in with_region}))
     evidence = f"all numbers have five digits and begin with that of a space ({', '.join(digits)})"
-    return _regions(f"{evidence}, so 40001 is the wire address 0: pass the base 0 if they are sent as printed", (), 5)
+    return _regions(f"{evidence}, so 40001 is the wire address 0: --base 0 if they are sent as printed", (), 5)
 
 
 def _regions(evidence: str, others: Sequence[Printed], length: int) -> Rule:
@@ -58,7 +58,7 @@ def _mixed(with_region: Sequence[Printed], others: Sequence[Printed]) -> Rule | 
         if not is_plain(one) or one.digits.startswith("0"):
             return ""
         other = f"others are as low as {min(numbers)}" if has_region(one) else f"others are {with_region[0].digits}"
-        return f"may count in its space or be a plain address: {other} (pass the base modicon or 0)"
+        return f"may count in its space or be a plain address: {other} (--base modicon or --base 0)"
 
     base, why, assumed = counted_from(numbers, "", set())
     return Rule(evidence=why, base=base, assumed=assumed, unclear=unclear)
