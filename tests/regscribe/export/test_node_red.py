@@ -427,6 +427,12 @@ def test_a_coil_is_written_by_function_5(write: Callable[..., Json]) -> None:
     assert (found["fc"], found["address"], found["value"]) == (5, 7, True)
 
 
+def test_a_value_that_fills_its_alignment_is_written(write: Callable[..., Json]) -> None:
+    pairs = "views: {pairs: {base: {type: float32, align: 2}}}"
+    found = write(250.4, "at: 8, name: X, views: pairs", top=pairs)
+    assert (found["address"], found["value"]) == (8, [0x437A, 0x6666])
+
+
 # -- losses -----------------------------------------------------------------------------------------------------------
 
 

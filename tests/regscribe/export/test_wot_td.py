@@ -121,6 +121,11 @@ def test_a_special_value_widens_the_limits(said: Callable[..., Json]) -> None:
     assert found["x-special"] == [{"raw": 0, "label": "off"}]
 
 
+def test_a_special_value_that_stands_for_another_number_says_which(said: Callable[..., Json]) -> None:
+    found = said("range: 1..80, special: {0: {label: shortest, means: 0.2}}")
+    assert found["x-special"] == [{"raw": 0, "label": "shortest", "value": "0.2"}]
+
+
 def test_what_is_only_read_has_no_limits_of_writes(said: Callable[..., Json]) -> None:
     assert not {"minimum", "maximum"} & said("access: r, range: 0..8").keys()
 

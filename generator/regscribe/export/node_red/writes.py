@@ -32,7 +32,7 @@ def _why_not(device: Device, point: Point) -> str:
         "its range is not known as the device is stated": point.ranges is None or point.valid is None,
         "its smallest step is not known as the device is stated": step_of(point, device.request.known) == 0,
         "its words do not stand side by side": point.wire.apart,
-        "its writes must be aligned": view.align > 1,
+        "its writes must be aligned": (point.write or 0) % view.align or point.words % view.align,
         f"a request may write {most} of its {point.words} words": most < point.words,
         "the device has no function that writes it": not write_functions(device.register_map.protocol, point),
     }

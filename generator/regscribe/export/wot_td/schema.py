@@ -135,8 +135,14 @@ def _special(device: Device, point: Point) -> Schema:
     if not point.special_numbers:
         return {}
     device.lose(point.register, "special-value", Grade.LOST, "a number for the reader: x-special says what it means")
-    numbers = [{"raw": _json(one.wire), "label": one.label} for one in point.special_numbers]
-    return {"x-special": numbers}
+    found: list[Schema] = []
+    for one in point.special_numbers:
+        found.append({"raw": _json(one.wire), "label": one.label})
+        if one.value != one.code:
+            done = f"{show(one.code)} for the reader: x-special says that it stands for {show(one.value)}"
+            device.lose(point.register, "special-number", Grade.WRONG, done)
+            found[-1]["value"] = show(one.value)
+    return {"x-special": found}
 
 
 def _parts(device: Device, point: Point) -> Schema:
