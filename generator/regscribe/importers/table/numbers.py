@@ -37,10 +37,6 @@ def add_type(making: Making, whole: Whole, index: int, choices: Choices, *, code
     if isinstance(found, Unclear):
         raise LeftOutError(UNCLEAR_TYPE, found.message)
     making.type = found = found or TypeCell()
-    if found.type is None and found.signed is not None and found.words <= 1:
-        making.type = found = TypeCell(
-            type=WireType.INT16 if found.signed else WireType.UINT16, words=1, kind=found.kind
-        )
     if found.type is WireType.BIT:  # a word that is 0 or 1
         making.type = found = TypeCell(type=WireType.UINT16, words=1, kind="boolean")
     if found.type is None:
@@ -189,8 +185,6 @@ def add_unit(making: Making) -> None:
     making.set({"unit": symbol or beside})
     if found is not None and not found.known and symbol:
         making.declared[symbol] = {"description": f"as the source has it: {' '.join(text.split())[:60]}"}
-    if found is not None and found.stated:
-        making.tell("unit-read", found.stated)
 
 
 def add_limits(making: Making, settled: Settled | Unclear | None) -> Limits | None:

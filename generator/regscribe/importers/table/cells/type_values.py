@@ -16,8 +16,8 @@ class TypeCell:
 
     `type` is None where it says an order or a kind alone. `words` are the registers that it takes, 0 if not said (a
     text without length). Orders are None where the cell says none. `kind` is `flags`, `enum` or `boolean`, where a word
-    says so. `encoding` is that of a text, `layout` that of a date, if they are said; `signed` is a sign without a
-    width, `bits` the number of bits of a part of a word (`2bit`). `stated` says in a sentence how a length was read.
+    says so. `encoding` is that of a text, `layout` that of a date, if they are said; `bits` is the number of bits of a
+    part of a word (`2bit`). `stated` says in a sentence how a length was read.
     """
 
     type: WireType | None = None
@@ -27,7 +27,6 @@ class TypeCell:
     kind: str = ""
     encoding: str = ""
     layout: str = ""
-    signed: bool | None = None
     bits: int = 0
     stated: str = ""
 

@@ -13,14 +13,12 @@ from regscribe.model.units import KNOWN_UNITS, meant_unit
 class UnitCell:
     """The symbol, and the factor that stood before it (None: none).
 
-    `known` is False of a symbol that a map must declare under `units` first. `stated` says in a sentence what was read
-    into the text.
+    `known` is False of a symbol that a map must declare under `units` first.
     """
 
     symbol: str
     factor: Fraction | None = None
     known: bool = True
-    stated: str = ""
 
 
 _NO_UNIT = frozenset(
