@@ -115,7 +115,7 @@ def _grown(making: Making, address: Address, index: int, whole: Whole, choices: 
     """A register with all but range and default. Raises LeftOutError where its number is not understood."""
     item, kind = making.item, whole.types[index]
     making.type = kind if isinstance(kind, TypeCell) else TypeCell()
-    bits = _bits(making, address.bits or _bit(making.item))
+    bits = _bits(making, address.bits or _own_bits(whole, index))
     name = name_of(making)
     making.set({"at": making.at, "name": name[:LONGEST_NAME]})
     if len(name) > LONGEST_NAME:
@@ -185,15 +185,13 @@ def _lose_scaled(making: Making, half: Half) -> None:
             making.lose(f"{role}-unscaled", f"the {role} is left out, as it counts in the unit of an unclear scale")
 
 
-def _bit(item: Item) -> tuple[int, int] | None:
-    """The bit that a column of its own says."""
-    text = item["bit"]
-    if not text:
-        return None
-    if not (text.isascii() and text.isdecimal() and len(text) < 3):  # noqa: PLR2004 - bits of a word or two
-        code, message = "bit-unclear", f"bit `{text[:40]}` is no number of a bit"
-        raise LeftOutError(code, message)
-    return int(text), int(text)
+def _own_bits(whole: Whole, index: int) -> tuple[int, int] | None:
+    """The bits that a column of its own says."""
+    found = whole.bits.cells[index]
+    if isinstance(found, Unclear):
+        code = "bit-unclear"
+        raise LeftOutError(code, found.message)
+    return found
 
 
 def _check_count(making: Making, address: Address) -> None:

@@ -8,6 +8,7 @@ from dataclasses import dataclass
 from regscribe.importers.table.cells import Unclear
 from regscribe.importers.table.cells.addresses import Address, AddressColumn, parse_addresses
 from regscribe.importers.table.cells.addresses import Column as Texts
+from regscribe.importers.table.cells.bits import BitColumn, parse_bits
 from regscribe.importers.table.cells.dialect_choice import choose_dialect
 from regscribe.importers.table.cells.dialects import Dialect
 from regscribe.importers.table.cells.numbers import decimal_comma
@@ -33,8 +34,8 @@ class Whole:
     """What the table says as a whole, row by row where it does.
 
     `functions` are those that a row names; `limits` are ranges as printed; `comma`: whether commas are decimal points
-    (None: nothing shows it); `exponents` are the ids of registers that may hold powers of ten, by name; `base` is what
-    the option of that name would say.
+    (None: nothing shows it); `exponents` are the ids of registers that may hold powers of ten, by name; `bits` are
+    those of a column of their own; `base` is what the option of that name would say.
     """
 
     addresses: tuple[Parsed, ...]
@@ -47,6 +48,7 @@ class Whole:
     limits: tuple[Limits | Unclear | None, ...]
     comma: bool | None
     exponents: dict[str, str]
+    bits: BitColumn
     headings: dict[str, str]
     stated: tuple[str, ...]
     base: str
@@ -83,11 +85,12 @@ def whole_of(items: Sequence[Item], columns: Sequence[Column], choices: Choices,
         scales.evidence if "scale" in headings else _no_scale(items, headings),
         why_limits,
     )
-    plain = tuple(filter(None, stated))
+    bits = parse_bits(_texts(items, "bit"))
+    plain = tuple(filter(None, (*stated, bits.evidence)))
     functions = tuple(cell.functions if isinstance(cell, SpaceCell) else () for cell in said.cells)
     known = (found.cells, spaces, functions, types, choice.dialect)
     exponents = _exponents(items, types)
-    return Whole(*known, scales, decimals, limits, comma, exponents, headings, plain, found.words)
+    return Whole(*known, scales, decimals, limits, comma, exponents, bits, headings, plain, found.words)
 
 
 def _exponents(items: Sequence[Item], types: Sequence[TypeCell | Unclear | None]) -> dict[str, str]:

@@ -8,11 +8,14 @@ from regscribe.importers.table.cells.address_pairs import together
 from regscribe.importers.table.cells.address_rule import LAST, Rule
 from regscribe.importers.table.cells.address_rules import decide
 from regscribe.importers.table.cells.address_values import Address, AddressColumn, Column, Reading
+from regscribe.importers.table.cells.bits import Bits, from_0
 from regscribe.importers.table.cells.notations import Printed, printed, space_of
 from regscribe.importers.table.cells.spaces import REGIONS
 from regscribe.model import Space
 
 __all__ = ["Address", "AddressColumn", "Column", "base_words", "parse_addresses"]
+
+Read = Printed | Unclear | None
 
 
 def base_words() -> tuple[str, ...]:
@@ -42,20 +45,29 @@ def _words(rule: Rule) -> str:
 
 
 def _one_column(column: Column, spaces: Sequence[Space | None], said: set[str]) -> Reading:
-    read = [printed(text) if text.strip(" -\t\n") else None for text in column.texts]
+    read: list[Read] = [printed(text) if text.strip(" -\t\n") else None for text in column.texts]
     if any(isinstance(one, Printed) and one.region is not None for one in read):
         read = [one.as_region if isinstance(one, Printed) else one for one in read]
     every = [one for one in read if isinstance(one, Printed)]
     if every and all(one.has_point_zero for one in every):  # numbers of a spreadsheet, no bits
         read = [replace(one, bits=None) if isinstance(one, Printed) else one for one in read]
+    bits = from_0([one.bits if isinstance(one, Printed) else None for one in read])
+    read = [_with_bits(one, each) for one, each in zip(read, bits.cells, strict=True)]
     beside = [*spaces, *[None] * (len(read) - len(spaces))]
     rule = decide(read, column.header, beside, said)
+    rule = replace(rule, evidence="; ".join(filter(None, (rule.evidence, bits.evidence))))
     cells = tuple(
         _address(one, rule, space, text) if isinstance(one, Printed) else one
         for one, space, text in zip(read, beside, column.texts, strict=False)
     )
     numbers = tuple(one.number(rule.digits) if isinstance(one, Printed) and rule.reads(one) else None for one in read)
     return Reading(column.header, column.texts, rule, cells, numbers)
+
+
+def _with_bits(one: Read, bits: Bits | Unclear | None) -> Read:
+    if not isinstance(one, Printed) or isinstance(bits, Unclear):
+        return bits if isinstance(one, Printed) and isinstance(bits, Unclear) else one
+    return replace(one, bits=bits)
 
 
 def _address(one: Printed, rule: Rule, beside: Space | None, text: str) -> Address | Unclear:

@@ -4,11 +4,10 @@ import re
 from dataclasses import dataclass, replace
 
 from regscribe.importers.table.cells import Unclear, quoted
+from regscribe.importers.table.cells.bits import MOST_BIT
 from regscribe.importers.table.cells.numbers import clean
 from regscribe.importers.table.cells.spaces import FUNCTIONS, REGIONS
 from regscribe.model import Space
-
-MOST_BIT = 15
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -136,7 +135,7 @@ def _bits(found: re.Match[str], text: str) -> tuple[int, int] | Unclear | None:
         return None
     ends = sorted((int(found["low"]), int(found["high"] or found["low"])))
     if ends[1] > MOST_BIT:
-        return Unclear(f"{quoted(text)} names bit {ends[1]}, and a register has bits 0 to {MOST_BIT}")
+        return Unclear(f"{quoted(text)} names bit {ends[1]}, and a register has bits 0 to {MOST_BIT - 1}")
     return ends[0], ends[1]
 
 

@@ -180,7 +180,7 @@ def test_a_range_of_modicon_numbers_counts_as_well() -> None:
     assert column("40001-40004").cells == (Address(0, HOLDING, 4),)
 
 
-@pytest.mark.parametrize("text", ["1234/5", "1234,5", "10-5", "20-10", "see text", "70000", "1234.16", "12345678"])
+@pytest.mark.parametrize("text", ["1234/5", "1234,5", "10-5", "20-10", "see text", "70000", "1234.17", "12345678"])
 def test_what_may_be_several_things_is_unclear(text: str) -> None:
     assert isinstance(column(text, "3").cells[0], Unclear)
 
@@ -205,6 +205,13 @@ def test_bits_are_told_apart(text: str, bits: tuple[int, int]) -> None:
 def test_point_0_behind_every_number_is_a_number_of_a_spreadsheet() -> None:
     assert column("100.0", "101.0").cells == (Address(100), Address(101))
     assert column("100.0", "100.1").cells == (Address(100, None, 0, (0, 0)), Address(100, None, 0, (1, 1)))
+
+
+def test_bits_count_from_1_where_16_occurs_and_0_does_not() -> None:
+    found = column("100.1", "100.16", "101.2-4", "102")
+    assert [cell.bits for cell in found.cells if isinstance(cell, Address)] == [(0, 0), (15, 15), (1, 3), None]
+    assert "bits count from 1" in found.evidence
+    assert "bit 16" in reason(column("100.0", "100.16"), 1)
 
 
 def test_separators_of_thousands_are_passed_over() -> None:
