@@ -411,3 +411,18 @@ def test_parts_of_four_words_stay_in_their_number_and_are_told(one: Made, losses
     wide = f"at: 0, name: A, type: uint64, fields: {{a: {{bits: 0..7}}, b: {{bits: 40..43}}}}, {READ}"
     assert "bitmask" not in one("sensor", wide)
     assert losses(wide)["fields"].startswith("LOST")
+
+
+def test_a_fault_of_a_part_is_no_value(one: Made, losses: Lost) -> None:
+    half = "a: {bits: 0..7, multiply: 0.5, sentinels: {255: absent}}"
+    parts = f"at: 0, name: A, type: uint16, fields: {{{half}}}, {READ}"
+    assert one("sensor", parts)["filters"] == [
+        {"lambda": ("lambda", "return x == 255.0f ? NAN : x;")},
+        {"multiply": 0.5},
+    ]
+    assert losses(parts)["sentinel-label"].endswith("255 = absent")
+
+
+def test_a_range_beyond_the_limits_of_the_component_is_read_only(made: Made) -> None:
+    # it refuses a lowest limit above the highest
+    assert "number" not in made("at: 0, name: A, type: uint32, range: 20000000..30000000, access: rw")

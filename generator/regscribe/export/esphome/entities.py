@@ -7,7 +7,8 @@ from regscribe.export.device import Device, Point
 from regscribe.export.device.names import distinct
 from regscribe.export.device.writes import obstacle, writes_several
 from regscribe.export.esphome.items import Item, Keys
-from regscribe.export.esphome.numbers import each_part, number, place, sensor
+from regscribe.export.esphome.numbers import number
+from regscribe.export.esphome.sensors import part_of, place, sensor
 from regscribe.losses import Grade
 from regscribe.model import BitField, Kind, Order, Space, WireType
 
@@ -102,7 +103,7 @@ def _parts(device: Device, point: Point) -> Iterator[Item]:
         device.lose(point.register, "fields", Grade.LOST, "exported as the number of the word: no mask takes its parts")
         yield sensor(device, point)
     elif wide:
-        yield from each_part(device, point)
+        yield from (part_of(device, point, part) for part in wide)
     yield from (_flag(point, part) for part in point.fields if part.is_flag)
 
 

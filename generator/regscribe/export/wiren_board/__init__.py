@@ -12,7 +12,8 @@ from regscribe.emit.words import one_line
 from regscribe.export.device import RESOLVED, Carries, Carry, Device, Point, Request, Target, Wire, exported
 from regscribe.export.device.names import Names
 from regscribe.export.device.options import CHOICE, MODEL, STATE
-from regscribe.export.wiren_board.channels import Channel, channels
+from regscribe.export.wiren_board.channels import channels
+from regscribe.export.wiren_board.values import Channel
 from regscribe.losses import Exported, Grade
 from regscribe.model import Order, RegisterMap, Space, WireType
 from regscribe.model.identifiers import snake
