@@ -33,6 +33,7 @@ HOLDS_BY_ITSELF = {
     **{(form, "limits"): "each register is a request of its own" for form in ONE_BY_ONE},
     **{(form, "functions"): "it reads by the function of the space, and writes nothing" for form in READERS},
     **{("pymodbus-simulator", fact): "words mean what the reader knows" for fact in WORDS},
+    ("home-assistant", "functions"): "a switch sends the function that may write it, all else is only read",
 }
 """What a format carries without a sign of it in the export, and why."""
 

@@ -18,7 +18,7 @@ summary = "a configuration of ESPHome's modbus_controller"
 options = (*(one for one in DEVICE_OPTIONS if one.name != "at"), BUS)
 
 carries: Carries = RESOLVED | {
-    **dict.fromkeys(("scale", "offset", "unit", "flags", "string", "limits"), Carry.WHOLE),
+    **dict.fromkeys(("scale", "offset", "unit", "flags", "string", "functions", "limits"), Carry.WHOLE),
     **dict.fromkeys(("sentinel", "enum", "fields", "boolean", "version", "name"), Carry.PARTLY),
     **dict.fromkeys(("write", "range", "pause"), Carry.PARTLY),
 }

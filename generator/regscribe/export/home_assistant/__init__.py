@@ -24,7 +24,7 @@ options = DEVICE_OPTIONS
 
 carries: Carries = RESOLVED | {
     **dict.fromkeys(("scale", "offset", "unit", "string", "name", "array"), Carry.WHOLE),
-    **dict.fromkeys(("limits", "pause"), Carry.WHOLE),
+    **dict.fromkeys(("functions", "limits", "pause"), Carry.WHOLE),
     **dict.fromkeys(("boolean", "version", "sentinel", "write", "settle", "poll"), Carry.PARTLY),
 }
 

@@ -25,7 +25,7 @@ options = (MODEL, *CHOICE, *STATE)
 
 carries: Carries = RESOLVED | {
     **dict.fromkeys(("scale", "offset", "unit", "enum", "flags", "boolean", "string", "group"), Carry.WHOLE),
-    **dict.fromkeys(("limits", "pause"), Carry.WHOLE),
+    **dict.fromkeys(("functions", "limits", "pause"), Carry.WHOLE),
     **dict.fromkeys(("sentinel", "fields", "version", "write", "range", "poll", "name"), Carry.PARTLY),
 }
 
