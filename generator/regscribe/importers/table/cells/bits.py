@@ -16,7 +16,7 @@ Bits = tuple[int, int]
 
 @dataclass(frozen=True, slots=True)
 class BitColumn:
-    """The bits of all rows, counted from 0 (None: the cell is empty), and the evidence if they are printed otherwise."""
+    """The bits of all rows, counted from 0 (None: the cell is empty), with the evidence where others are printed."""
 
     evidence: str
     cells: tuple[Bits | Unclear | None, ...]

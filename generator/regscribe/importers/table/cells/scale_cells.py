@@ -26,7 +26,8 @@ _POWER = re.compile(
     r"|(?:[x*\u00d7]\s*)?10(?P<b>[\u207a\u207b]?[\u2070\u00b9\u00b2\u00b3\u2074-\u2079]{1,2})"
 )
 _DIGITS = re.compile(
-    rf"{_DIGIT_WORDS}\s*[:=]?\s*(?P<a>[0-9]{{1,2}})|(?P<b>[0-9]{{1,2}})\s*{_DIGIT_WORDS}\.?|%\.(?P<c>[0-9]{{1,2}})f",
+    rf"{_DIGIT_WORDS}\s*[:=]?\s*(?P<a>[0-9]{{1,2}})|(?P<b>[0-9]{{1,2}})\s*{_DIGIT_WORDS}\.?|%\.(?P<c>[0-9]{{1,2}})f"
+    r"|fix(?P<d>[0-9])",
     re.IGNORECASE,
 )
 _PATTERN = re.compile(r"[#Xx9]{1,10}[.,](?P<a>[#Xx9]{1,9})|#+[.,](?P<b>0{1,9})|[#0]*0[.,](?P<c>0{2,9})")

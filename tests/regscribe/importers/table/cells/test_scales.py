@@ -33,6 +33,7 @@ SAYS_ITSELF = {
     "decimals 1": TENTH,
     "1 decimal": TENTH,
     "%.1f": TENTH,
+    "FIX1": TENTH,
     "xx.x": TENTH,
     "###.#": TENTH,
     "x/10": TENTH,
