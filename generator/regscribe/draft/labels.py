@@ -26,3 +26,9 @@ def labelled(labels: Mapping[int, str], what: str = "code") -> OneLine:
         taken.add(normalised(name))
         found[code] = label if name == usual else OneLine({"label": label, "id": name})
     return OneLine(found)
+
+
+def described(name: str, text: str) -> dict[str, str]:
+    """Return the key `description` for a text; none where it is empty or repeats the name."""
+    plain = " ".join(text.split())
+    return {"description": plain} if plain and normalised(plain) != normalised(name) else {}

@@ -5,6 +5,7 @@ from dataclasses import dataclass
 from textwrap import indent
 from typing import Any
 
+from regscribe.checks.identifiers import normalised
 from regscribe.draft import Draft, Entry, Part
 from regscribe.draft.head import completed
 from regscribe.files import OneLine, dump
@@ -74,7 +75,8 @@ def group_id(name: str, taken: set[str] | frozenset[str] = frozenset()) -> str:
     plain = plain if plain[0].isalpha() else f"{GROUP_ID}_{plain}"
     number = 2
     found = plain
-    while found in taken:
+    known = set(map(normalised, taken))
+    while normalised(found) in known:
         found, number = f"{plain}_{number}", number + 1
     return found
 

@@ -13,6 +13,7 @@ from typing import Any
 from regscribe.dialects import ABCD, Orders, read_back
 from regscribe.dialects.edgex import ACCESS, BOOL, RAW_TYPES, SWAPS, TABLES, TYPES
 from regscribe.draft import Draft
+from regscribe.draft.labels import described
 from regscribe.importers.shared.bits import bits_of
 from regscribe.importers.shared.document import Collecting, has, reads, text_of
 from regscribe.importers.shared.points import Point
@@ -71,8 +72,7 @@ def _resource(name: str, place: Span, keys: Keys) -> Point:
     access = BY_ACCESS.get(value.text("readWrite", "R").upper())
     if access is None:
         refuse("readWrite", f"readWrite `{value.text('readWrite')}` is none of R, W, RW")
-    described = keys.text("description")
-    more: dict[str, Any] = {"description": described} if described and described != name else {}
+    more: dict[str, Any] = {**described(name, keys.text("description"))}
     point = Point(name=name, place=place, at=at, space=space, access=access.value, unit=value.text("units"), more=more)
     point = _form(point, bit, of, value)
     value.taken.add("valueType")

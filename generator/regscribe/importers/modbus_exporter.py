@@ -12,6 +12,7 @@ from regscribe.dialects import ABCD, DCBA, read_back
 from regscribe.dialects.modbus_exporter import BOOL, ENDIANNESS, FUNCTIONS, TYPES
 from regscribe.dialects.prometheus import BASE_UNITS
 from regscribe.draft import Draft
+from regscribe.draft.labels import described
 from regscribe.importers.shared.document import Collecting, chosen, has, reads, text_of
 from regscribe.importers.shared.points import Point
 from regscribe.importers.shared.read_yaml import read_yaml
@@ -70,8 +71,7 @@ def _called(metric: Node) -> str:
 def _metric(name: str, place: Span, keys: Keys) -> Point:
     space, at = _place(keys)
     keys.taken.add("labels")
-    described = keys.text("help")
-    more: dict[str, Any] = {"description": described} if described and described != name else {}
+    more: dict[str, Any] = {**described(name, keys.text("help"))}
     point = Point(name=name, place=place, at=at, space=space, unit=_unit(keys.text("name")), more=more)
     told = keys.text("dataType")
     if space.is_bits:

@@ -134,6 +134,18 @@ def test_what_is_no_template_is_one_message(refusal: Callable[..., str], text: s
     assert said in refusal("wiren-board", text)
 
 
+def test_two_parameters_of_one_register_are_one_for_conditions(imported: Import) -> None:
+    found = imported(
+        "wiren-board",
+        """{"device_type": "A", "device": {"name": "A", "parameters": {
+             "first": {"title": "First", "reg_type": "coil", "address": 1},
+             "second": {"title": "Second", "reg_type": "coil", "address": 1}},
+           "channels": [{"name": "C", "reg_type": "input", "address": 2, "condition": "second==1"}]}}""",
+    )
+    assert found.outcomes == {"First": "whole", "Second": "whole", "C": "whole"}
+    assert "when: {first: 1}" in found.text
+
+
 KNOWN = {"a": Reference("a"), "B": Reference("b", given=True)}
 
 

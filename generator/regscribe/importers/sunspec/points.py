@@ -3,7 +3,7 @@
 from collections.abc import Callable, Mapping
 from typing import Any, NamedTuple
 
-from regscribe.draft.labels import labelled
+from regscribe.draft.labels import described, labelled
 from regscribe.files import OneLine
 from regscribe.importers.shared.exact import whole
 from regscribe.importers.shared.reading import Keys, refuse
@@ -71,8 +71,7 @@ def register_of(keys: Keys, at: int, own: str, find: Find) -> dict[str, Any]:
     unit = keys.text("units")
     if unit and told != SUNSSF:
         found["unit"] = meant_unit(unit) or " ".join(unit.split())
-    described = " ".join(keys.text("desc").split())
-    found |= {"description": described} if described else {}
+    found |= described(str(found["name"]), keys.text("desc"))
     found |= _symbols(keys, form)
     if form.none is not None and code not in HEADER:
         none: dict[Any, str] = {form.none: NOT_IMPLEMENTED}

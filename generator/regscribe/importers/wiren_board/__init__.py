@@ -97,12 +97,14 @@ def _parameters(device: Node) -> Iterator[tuple[str, Node]]:
 
 
 def _references(device: Node) -> dict[str, Reference]:
-    """What a condition may ask, by the id of the parameter."""
+    """What a condition may ask, by the id of the parameter; two of one register are the first of them."""
     found: dict[str, Reference] = {}
+    by_place: dict[tuple[str, str], Reference] = {}
     for own, parameter in _parameters(device):
         plain_id = label_id(own) or "parameter"
         if parameter.get("address"):
-            found[own] = Reference(plain_id)
+            place = parameter.word("reg_type"), parameter.word("address")
+            found[own] = by_place.setdefault(place, Reference(plain_id))
         else:
             title = parameter.word("title") or own
             found[own] = Reference(plain_id, title, number(parameter.word("default")), given=True)

@@ -10,7 +10,7 @@ from typing import Any
 from regscribe.dialects import Orders, read_back
 from regscribe.dialects.wiren_board import ORDERS, OTHER_TYPES, SINGLE_WRITES, SPACES, STRING8, TYPES
 from regscribe.draft import Remark
-from regscribe.draft.labels import labelled
+from regscribe.draft.labels import described, labelled
 from regscribe.draft.numbers import plain
 from regscribe.files import OneLine
 from regscribe.importers.shared.exact import whole
@@ -138,8 +138,7 @@ def _further(keys: Keys, context: Context, point: Point) -> dict[str, Any]:
     if keys.node.word("type") == PUSHED and point.access != "r":
         more["stays"] = "momentary"
     keys.drop("fw", "the firmware since which it exists")
-    described = " ".join(context.said.get(keys.node.word("description"), "").split())
-    return more | ({"description": described} if described and described != point.name else {})
+    return more | described(point.name, context.said.get(keys.node.word("description"), ""))
 
 
 def _of_words(point: Point, keys: Keys, context: Context) -> Point:
