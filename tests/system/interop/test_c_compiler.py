@@ -2,6 +2,7 @@
 
 import subprocess
 from collections.abc import Iterator
+from contextlib import suppress
 from fractions import Fraction
 from itertools import chain
 from pathlib import Path
@@ -10,8 +11,10 @@ import pytest
 
 from regscribe import plugins
 from regscribe.model import Kind, Register, Space
+from regscribe.plugins import OptionError
 from regscribe.simulate import find_map
 
+from ...conformance.suite import cases, diagnose, whole_map  # noqa: TID252 (tests are no package)
 from .stage import Stage
 
 pytestmark = pytest.mark.interop("c-compiler")
@@ -21,6 +24,9 @@ COMPILERS = {"c99": ("gcc", "-std=c99", "-x", "c"), "c++11": ("g++", "-std=c++11
 HERE = Path(__file__).parent
 SHIPPED = sorted((HERE.parents[2] / "maps").glob("*/*.yaml"))
 MODELS = [(path, model.name) for path in SHIPPED if ".library." not in path.name for model in find_map(path).models]
+FEWEST = 150
+"""Cases that a header says something of."""
+
 STRUCTURED = frozenset({"float16", "ipv4", "eui48", "bytes", "datetime"})
 """Types whose numbers a C program needs more than shifts for."""
 
@@ -45,6 +51,23 @@ def test_the_headers_of_all_shipped_models_compile_side_by_side(language: str, t
         (tmp_path / f"model_{number}.h").write_text(str(made.texts[""]), encoding="utf-8")
     includes = "".join(f'#include "model_{number}.h"\n' for number in [*range(len(MODELS)), 0])
     compiled(language, f"{includes}int main(void) {{ return 0; }}\n", tmp_path)
+
+
+@each_compiler
+def test_the_headers_of_all_cases_compile(language: str, tmp_path: Path) -> None:
+    options = {one.name: one.default for one in plugins.exporter("c-header").options}
+    sound = [case for case in cases() if case.rows and not case.refused and not case.place]
+    for number, case in enumerate(sound):
+        register_map, found = diagnose(whole_map(case.map))
+        assert register_map is not None, found
+        with suppress(OptionError):  # it can say nothing of the case
+            text = plugins.export("c-header", [register_map], options).texts[""]
+            (tmp_path / f"case_{number}.in").write_text(str(text), encoding="utf-8")
+    files = sorted(map(str, tmp_path.iterdir()))
+    assert len(files) > FEWEST
+    command = [*COMPILERS[language], *STRICT, "-fsyntax-only", *files]
+    done = subprocess.run(command, capture_output=True, text=True, timeout=120, check=False)  # noqa: S603 - our own text
+    assert done.stderr == ""
 
 
 @each_compiler
