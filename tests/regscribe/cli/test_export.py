@@ -74,6 +74,10 @@ def test_the_report_as_sarif_is_valid_and_has_each_loss(cli: Cli) -> None:
     (run,) = json.loads(cli(*TELEGRAF, "--report", "sarif").err)["runs"]
     rules = {result["ruleId"] for result in run["results"]}
     assert {"telegraf/default", "telegraf/enum", "telegraf/write"} <= rules
+    (enum,) = [result for result in run["results"] if result["ruleId"] == "telegraf/enum"]
+    place = enum["locations"][0]["physicalLocation"]
+    assert place["artifactLocation"]["uri"].endswith("maps/acme/oven.yaml")
+    assert place["region"]["startLine"] == 14  # where `Mode` stands
 
 
 @pytest.mark.usefixtures("oven")

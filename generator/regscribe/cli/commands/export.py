@@ -61,7 +61,7 @@ def command(
         refused = strict and bool(made.losses)
         if not refused:
             _put(form, made, out)
-        _tell_losses(report_of(made, form=form, report=report, refused=refused), report_to)
+        _tell_losses(report_of(made, register_maps, form=form, report=report, refused=refused), report_to)
     return int(refused)
 
 

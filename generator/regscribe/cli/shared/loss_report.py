@@ -1,14 +1,15 @@
 """What an export lost: as lines for people, as JSON, and as SARIF for hosts that show such results."""
 
 from collections import Counter
-from collections.abc import Callable, Hashable, Iterable, Iterator, Sequence
+from collections.abc import Callable, Hashable, Iterable, Iterator, Mapping, Sequence
 from dataclasses import asdict
 from typing import TypeVar
 
 from regscribe.cli.shared.diagnostic_text import count
 from regscribe.cli.shared.report_formats import as_sarif
 from regscribe.losses import Exported, Grade, Loss, worst_first
-from regscribe.model import Diagnostic, Severity, Span
+from regscribe.model import Diagnostic, RegisterMap, Severity, Span
+from regscribe.model.diagnostic import NOWHERE
 from regscribe.visible import json_text, safe
 
 K = TypeVar("K", bound=Hashable)
@@ -19,11 +20,12 @@ MOST_NAMED = 6
 """Registers of one loss that are named in a text; JSON has them all."""
 
 
-def report_of(made: Exported, *, form: str, report: str, refused: bool) -> str:
-    """Return the report on an export to `form`; empty where a text would say nothing."""
+def report_of(made: Exported, maps: Sequence[RegisterMap], *, form: str, report: str, refused: bool) -> str:
+    """Return the report on an export of maps to `form`; empty where a text would say nothing."""
     losses = worst_first(made.losses)
     if report == "sarif":
-        return as_sarif([_diagnostic(loss, form) for loss in losses], {})
+        places = _places(maps)
+        return as_sarif([_diagnostic(loss, form, places) for loss in losses], {})
     if report == "json":
         plain = [{**asdict(loss), "grade": loss.grade.name.lower()} for loss in losses]
         return json_text({"format": 1, "export": form, "remarks": made.remarks, "losses": plain}, indent=2) + "\n"
@@ -68,6 +70,15 @@ def _by(losses: Iterable[Loss], key: Callable[[Loss], K]) -> Iterator[tuple[K, l
     yield from found.items()
 
 
-def _diagnostic(loss: Loss, form: str) -> Diagnostic:
+def _places(maps: Iterable[RegisterMap]) -> dict[tuple[str, str], Span]:
+    """Where the registers of each model stand, and the model itself (with an empty path)."""
+    models = [(one, model) for one in maps for model in one.models]
+    known = {(model.name, ""): one.span for one, model in models}
+    return known | {(model.name, register.path): register.span for _, model in models for register in model.registers}
+
+
+def _diagnostic(loss: Loss, form: str, places: Mapping[tuple[str, str], Span]) -> Diagnostic:
     severity = Severity.ERROR if loss.grade is Grade.WRONG else Severity.WARNING
-    return Diagnostic(f"{form}/{loss.fact}", f"{loss.register}: {loss.done}", Span(loss.model), severity=severity)
+    place = places.get((loss.model, loss.register)) or places.get((loss.model, ""), NOWHERE)
+    what = f"{loss.register}: {loss.done}" if loss.register else loss.done
+    return Diagnostic(f"{form}/{loss.fact}", what, place, severity=severity)
