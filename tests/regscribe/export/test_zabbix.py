@@ -3,6 +3,7 @@
 The scripts themselves are run with the values by hand in tests/system/interop/test_zabbix.py.
 """
 
+import re
 from collections.abc import Callable
 from typing import Any
 
@@ -185,3 +186,16 @@ def test_zabbix_asks_once_a_day_at_least(export: Export, small: Small) -> None:
 def test_a_coil_with_a_scale_is_a_float(item: Template) -> None:
     made = item("at: 3, name: C, space: coil, kind: number, multiply: 0.1")
     assert (made["value_type"], made["preprocessing"][0]["parameters"]) == ("FLOAT", ["0.1"])
+
+
+def test_no_text_of_the_map_is_a_macro(exported_text: Text, small: Small) -> None:
+    text = exported_text(
+        "zabbix",
+        small(
+            "at: 0, name: 'A {$SECRET}', description: '{#LLD} {{HOST.IP}}', enum: {0: 'x {$SECRET}'}",
+            "at: 1, name: B, unit: '{$SECRET}'",
+            top="units: {'{$SECRET}': {description: none}}",
+        ),
+        at=AT,
+    )
+    assert set(re.findall(r"\{[$#{][^}]*\}?", text)) == {"{$MODBUS.AT}", "{$MODBUS.UNIT}"}

@@ -1,6 +1,7 @@
 """The template: items, value maps and the macros that say where the device answers."""
 
 import hashlib
+import re
 import uuid
 from collections.abc import Iterator
 from dataclasses import dataclass, field
@@ -35,7 +36,7 @@ class _ValueMaps:
         if any(len(label) > LONGEST_LABEL for _, label in item.labels):
             done = f"labels are cut to {LONGEST_LABEL} characters"
             self.device.lose(item.point.register, "label-cut", Grade.COSMETIC, done)
-        labels = tuple((code, _cut(label, LONGEST_LABEL)) for code, label in item.labels)
+        labels = tuple((code, _cut(_plain(label), LONGEST_LABEL)) for code, label in item.labels)
         if labels not in self.found:
             self.found[labels] = self.names.give(_cut(item.set or item.point.path, LONGEST_LABEL - 4))
         return self.found[labels]
@@ -78,14 +79,14 @@ def _item(device: Device, item: Item, maps: _ValueMaps) -> Plain:
     point = item.point
     said = {
         "uuid": _uuid(device, item.key),
-        "name": _cut(one_line(item.name), LONGEST),
+        "name": _cut(_plain(item.name), LONGEST),
         "type": "DEPENDENT" if item.master else "",
         "key": item.key,
         "delay": "0" if item.master else f"{device.request.every}s",
         "trends": "0" if item.value_type == "TEXT" else "",
         "value_type": item.value_type,
-        "units": f"!{item.unit}" if item.unit else "",  # with ! it is not turned into kilo-units or days
-        "description": one_line(item.description),
+        "units": f"!{_plain(item.unit)}" if item.unit else "",  # with ! it is not turned into kilo-units or days
+        "description": _plain(item.description),
         "valuemap": {"name": maps.name(item)} if item.labels else {},
         "preprocessing": [{"type": kind, "parameters": [text]} for kind, text in item.steps],
         "master_item": {"key": item.master} if item.master else {},
@@ -105,6 +106,11 @@ def _value_maps(device: Device, maps: _ValueMaps) -> Iterator[Plain]:
 
 def _mapping(code: str, label: str) -> Plain:
     return {"value": code, "newvalue": label} if code else {"type": "DEFAULT", "newvalue": label}
+
+
+def _plain(text: str) -> str:
+    """A text on one line in which Zabbix sees no macro that it would replace."""
+    return re.sub(r"\{(?=[$#{])", "{ ", one_line(text))
 
 
 def _cut(text: str, most: int) -> str:
