@@ -143,7 +143,7 @@ def _scale(making: Making, whole: Whole, index: int) -> Scale | Unclear:
         return unclear
     known = [one for one in said if isinstance(one, Scale)]
     if len({(one.multiply, one.add) for one in known}) > 1:
-        texts = ", ".join(f"`{item[role][:30]}`" for role in ("scale", "decimals", "unit") if item[role])
+        texts = ", ".join(f"`{item[role][:30]}`" for role in ("scale", "decimals", "unit", "name") if item[role])
         return Unclear(f"{texts} say different scales")
     scale = known[0] if known else PLAIN
     offset = parse_offset(item["offset"], comma=whole.comma)
@@ -155,15 +155,18 @@ def _scale(making: Making, whole: Whole, index: int) -> Scale | Unclear:
 
 
 def _scales(making: Making, whole: Whole, index: int) -> list[Scale | Unclear]:
-    """What the columns of scales, of decimals and of units say; only if none does, what the description says."""
+    """What columns of scales, decimals and units and the name say; if none does, what the description says."""
     text = making.item["unit"]
     unit = parse_unit(text)
     in_unit = Scale(unit.factor) if isinstance(unit, UnitCell) and unit.factor is not None else None
     said = [whole.scales.cells[index], whole.decimals.cells[index], in_unit]
     if isinstance(unit, Unclear) and may_scale(text):
         said.append(unit)
+    told = None if making.wire.is_float else scale_in_name(making.item["name"])
     if all(one is None for one in said) and not making.wire.is_float:
-        said += [scale_in(making.item["description"]), scale_in_name(making.item["name"])]
+        said += [scale_in(making.item["description"]), told]
+    elif isinstance(told, Scale):
+        said.append(told)
     return [one for one in said if one is not None]
 
 

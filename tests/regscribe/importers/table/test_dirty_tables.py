@@ -298,3 +298,11 @@ def test_a_column_of_valid_values_may_have_ranges_and_codes(imported: Import) ->
     assert "range: 0..6553.5" in found.text
     assert "range: 45..65" in found.text
     assert found.members("mode") == {0: "Off", 1: "On"}
+
+
+def test_a_name_and_a_column_that_say_different_scales_leave_the_number_raw(imported: Import) -> None:
+    rows = "0,Voltage (0.1 V),U16,10\n1,Current (0.1 A),U16,1\n2,Power (0.1 W),F32,1\n"
+    found = imported("table", f"Address,Name,Type,Gain\n{rows}")
+    assert found.value("voltage_0_1_v", 2301) == Fraction(2301, 10)
+    assert found.codes("Current (0.1 A)") == ["scale-unclear"]
+    assert found.codes("Power (0.1 W)") == []  # a float needs no scale, so this is how fine it is
