@@ -68,7 +68,10 @@ def by_nodeset(made: Exported) -> dict[str, Said]:
     """What the properties of a nodeset say, by the name of the register."""
     space = "{http://opcfoundation.org/UA/2011/03/UANodeSet.xsd}"
     own: dict[str, dict[str, str]] = {}
-    for node in ET.fromstring(str(made.texts[""])):  # noqa: S314 - our own text
+    root = ET.fromstring(str(made.texts[""]))  # noqa: S314 - our own text
+    ids = [node.get("NodeId") for node in root if node.get("NodeId")]
+    assert len(ids) == len(set(ids))
+    for node in root:
         parent, name = node.get("ParentNodeId", ""), node.get("BrowseName", "").removeprefix("1:")
         value = node.find(f"{space}Value")
         if value is not None:
