@@ -95,7 +95,7 @@ def test_a_real_map_gets_its_yes_without_jsonschema(path: Path) -> None:
     assert certainly_valid(document.data)
 
 
-@pytest.mark.parametrize("language", ["map", "backup", "devices", "program"])
+@pytest.mark.parametrize("language", ["map", "backup", "devices", "program", "import"])
 def test_a_language_that_people_write_has_known_keywords_only(language: str) -> None:
     assert _unknown(schema_json(language)) == set()
 

@@ -13,6 +13,8 @@ import pytest
 from hypothesis import HealthCheck, example, given, settings
 from hypothesis import strategies as st
 
+from regscribe.draft import mapping
+from regscribe.files import FileError
 from regscribe.model import RegisterMap
 from regscribe.pipeline import compile_map
 from regscribe.simulate import Service, SimulatedDevice, SimulatorError
@@ -272,6 +274,18 @@ wear: {setpoint_eeprom_and_ram: 3}
 in_effect: {holdback: 2}
 """
 
+MAPPING = """\
+format: 1
+importer: table
+source: list.xlsx
+options: {sheet: Modbus, columns: [at=Register, unit=-], base: modicon}
+skip: [{name: Reserved, reason: later}]
+fixes: [{at: 12, space: input, set: {decimals: 1, enum: {0: "off", 1: "on"}}}]
+imported:
+  - {group: Drive, register: {at: 1, name: Speed, access: r}}
+  - {group: Fan, unit_id: 2, register: {at: 1, name: Speed, access: r}}
+"""
+
 
 def into_a_device(path: Path) -> SimulatedDevice:
     """A simulated device in the state of a file."""
@@ -288,6 +302,7 @@ LOADERS: dict[str, tuple[str, Callable[[Path], Any], type[Exception]]] = {
     "state": (STATE, into_a_device, SimulatorError),
     "state from a backup": (BACKUP, into_a_device, SimulatorError),
     "program": (PROGRAM, programs.load, TargetError),
+    "mapping of an import": (MAPPING, mapping.load, FileError),
 }
 SPOILERS = [
     *(

@@ -5,7 +5,10 @@ import zipfile
 from collections.abc import Callable
 from typing import Any
 
+import openpyxl
 import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
 
 from regscribe.importers import table
 from regscribe.importers.table import archive, grid, sheet_structure, sources, workbooks
@@ -326,3 +329,26 @@ def test_columns_have_letters_as_in_a_spreadsheet() -> None:
     for number, name in ((0, "A"), (25, "Z"), (26, "AA"), (701, "ZZ"), (702, "AAA")):
         assert grid.letters(number) == name
         assert grid.number_of(name) == number
+
+
+BEGINNINGS = (b"", b"%PDF-1.4\n", b"PK\x03\x04", archive.OLE, b"\xff\xfe", b"Address,Name,Type\n", b"sep=;\n")
+
+
+@settings(max_examples=150, deadline=None)
+@given(st.sampled_from(BEGINNINGS), st.binary(max_size=200), st.sampled_from(["list.csv", "list.xlsx", "stdin"]))
+def test_no_bytes_raise_anything(beginning: bytes, data: bytes, name: str) -> None:
+    table.likeness(beginning + data, name)
+    found = table.read(beginning + data, name, {})
+    assert found.failed or found.stated
+
+
+@settings(max_examples=60, deadline=None)
+@given(st.integers(0, 4000), st.binary(min_size=1, max_size=30))
+def test_a_workbook_in_which_bytes_are_wrong_is_read_or_refused(at: int, wrong: bytes) -> None:
+    book = openpyxl.Workbook()
+    for row in ROWS:
+        book.worksheets[0].append(row)
+    data = io.BytesIO()
+    book.save(data)
+    spoiled = data.getvalue()[:at] + wrong + data.getvalue()[at + len(wrong) :]
+    assert table.read(spoiled, "list.xlsx", {}) is not None
