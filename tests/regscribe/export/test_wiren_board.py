@@ -211,6 +211,12 @@ def test_coils_are_switches_by_function_5_alone(one: Made) -> None:
     assert one(coil, top="protocol: {functions: [1, 3, 15]}")["readonly"] is True
 
 
+def test_a_coil_whose_states_have_labels_is_a_choice(one: Made) -> None:
+    valve = "at: 3, name: Valve, space: coil, enum: {0: closed, 1: opened}, access: rw"
+    found = one(valve, top="protocol: {functions: [1, 3, 5]}")
+    assert (found["type"], found["enum"], found["enum_titles"]) == ("value", ["0", "1"], ["closed", "opened"])
+
+
 def test_a_truth_value_of_a_word_has_its_two_values(one: Made) -> None:
     found = one("at: 3, name: Pump, type: uint16, kind: boolean, access: rw")
     assert (found["type"], found["on_value"], found["off_value"]) == ("switch", "1", "0")

@@ -106,6 +106,18 @@ def test_texts_have_one_or_two_characters_a_word(imported: Import) -> None:
     assert found.value("name", 0x4142, 0x4344) == "ABCD"
 
 
+def test_texts_keep_the_order_of_their_words_and_bytes(imported: Import) -> None:
+    texts = """{"device_type": "A", "device": {"name": "A", "channels": [
+      {"name": "Turned", "address": 1, "format": "string8", "string_data_size": 2, "byte_order": "little_endian"},
+      {"name": "Last", "address": 3, "format": "string8", "string_data_size": 2, "word_order": "little_endian"},
+      {"name": "High", "address": 5, "format": "string", "string_data_size": 2, "byte_order": "little_endian"}
+    ]}}"""
+    found = imported("wiren-board", texts)
+    assert found.value("turned", 0x4241, 0x4443) == "ABCD"
+    assert found.value("last", 0x4344, 0x4142) == "ABCD"
+    assert found.value("high", 0x4100, 0x4200) == "AB"
+
+
 def test_names_and_groups_are_those_in_english(imported: Import) -> None:
     found = imported("wiren-board", TEMPLATE)
     assert found.draft.title == "Oven 3"

@@ -50,8 +50,10 @@ def sensor(device: Device, point: Point) -> Item:
 def _filters(faults: list[Span], multiply: Fraction, add: Fraction) -> Keys:
     """First what is no value, by the raw number, then the scale."""
     found: list[Keys] = [{"lambda": Tagged(f"return {is_fault(one)} ? NAN : x;", LAMBDA)} for one in faults]
-    found += [{"multiply": Plain(decimal(multiply))}] if multiply != 1 else []
-    found += [{"offset": Plain(decimal(add))}] if add else []
+    if multiply != 1:
+        found.append({"multiply": Plain(decimal(multiply))})
+    if add:
+        found.append({"offset": Plain(decimal(add))})
     return {"filters": found} if found else {}
 
 

@@ -31,7 +31,7 @@ def value(device: Device, point: Point) -> Channel:
     """What the whole register means."""
     kind, wire = point.register.kind, point.wire
     if wire.space.is_bits:
-        return {"type": "switch", **_codes(point.members)}
+        return {"type": "value", **_codes(point.members)} if point.members else {"type": "switch"}
     if wire.type is WireType.STRING:
         form = TYPES[wire.type] if point.register.text.per_register else STRING8
         return {"type": "text", "format": form, **_one_per_register(point), "string_data_size": point.words}

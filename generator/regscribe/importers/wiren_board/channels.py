@@ -18,7 +18,7 @@ from regscribe.importers.shared.points import Point
 from regscribe.importers.shared.reading import Keys, refuse
 from regscribe.importers.shared.tree import Node
 from regscribe.importers.wiren_board.conditions import ConditionError, Reference, condition_of
-from regscribe.model import Space, Span, WireType, show
+from regscribe.model import Order, Space, Span, WireType, show
 
 INPUTS = {**read_back(SPACES), **dict.fromkeys(SINGLE_WRITES, Space.HOLDING)}
 BY_TYPE = read_back(TYPES)
@@ -152,8 +152,13 @@ def _of_words(point: Point, keys: Keys, context: Context) -> Point:
         words = keys.whole("string_data_size") or 0
         if not words or point.bits:
             refuse("string_data_size", "a text has no string_data_size")
-        form = {} if told == STRING8 else {"text": OneLine(one_per_register="low")}
-        return replace(point, type=WireType.STRING, words=words, unit="", more={**point.more, **form})
+        if told == STRING8:
+            return replace(point, type=WireType.STRING, words=words, orders=orders, unit="")
+        text = OneLine(one_per_register="low" if orders[1] is Order.BIG else "high")
+        orders = (orders[0], Order.BIG)
+        return replace(
+            point, type=WireType.STRING, words=words, orders=orders, unit="", more={**point.more, "text": text}
+        )
     if told not in BY_TYPE:
         refuse("format", f"format `{told}` is none that is understood {OTHER_TYPES.get(told, '')}".strip())
     wire = BY_TYPE[told]
