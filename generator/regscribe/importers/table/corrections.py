@@ -14,17 +14,18 @@ BY_PLACE = re.compile(r"\s*([A-Za-z]{1,3})([1-9][0-9]{0,6})\s*=(.*)", re.DOTALL)
 BY_NAME = re.compile(r"\s*(.*\S)\s*/\s*([^=/]*[^=/\s])\s*=(.*)", re.DOTALL)
 
 
-def corrected(grid: Grid, header: Header, columns: Sequence[Column], texts: Sequence[str]) -> Grid:
-    """Return the grid with these cells, each stated. Raises TableError where a row or a column is not there."""
-    for text in texts:
-        if found := BY_PLACE.fullmatch(text):
-            grid = _by_place(grid, text, *found.groups())
-        elif found := BY_NAME.fullmatch(text):
-            grid = _by_name(grid, header, columns, text, *found.groups())
-        else:
-            message = f"--cell {text}: write NAME / HEADING = TEXT, or B7 = TEXT"
-            raise TableError(message)
-    return grid
+BY_USER = ", as you said"
+"""Ends what is stated of a cell."""
+
+
+def corrected(grid: Grid, header: Header, columns: Sequence[Column], text: str) -> Grid:
+    """Return the grid with one cell corrected, which is stated. Raises TableError where it is not there."""
+    if found := BY_PLACE.fullmatch(text):
+        return _by_place(grid, text, *found.groups())
+    if found := BY_NAME.fullmatch(text):
+        return _by_name(grid, header, columns, text, *found.groups())
+    message = f"--cell {text}: write NAME / HEADING = TEXT, or B7 = TEXT"
+    raise TableError(message)
 
 
 def _by_place(grid: Grid, text: str, column: str, line: str, new: str) -> Grid:
@@ -67,5 +68,5 @@ def _set(grid: Grid, rows: Sequence[int], column: int, new: str, called: str) ->
         cells = [*changed[index].cells, *[""] * (column + 1 - len(changed[index].cells))]
         cells[column] = new.strip()
         changed[index] = replace(changed[index], cells=tuple(cells), repeated=changed[index].repeated - {column})
-    stated = f"{called} is read as `{new.strip()}`, as you said"
+    stated = f"{called} is read as `{new.strip()}`{BY_USER}"
     return replace(grid, rows=tuple(changed), stated=(*grid.stated, stated))

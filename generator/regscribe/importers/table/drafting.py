@@ -11,7 +11,7 @@ from regscribe.importers.table.cells.detect import detect
 from regscribe.importers.table.choices import Choices
 from regscribe.importers.table.column_words import NEXT, asked, pairs_of
 from regscribe.importers.table.columns import Column, recognise, texts_below
-from regscribe.importers.table.corrections import corrected
+from regscribe.importers.table.corrections import BY_USER, corrected
 from regscribe.importers.table.grid import Grid, TableError
 from regscribe.importers.table.header import Header, at_row, find, without
 from regscribe.importers.table.headings import AT, IGNORE, fold
@@ -54,6 +54,8 @@ def draft_of(grids: Sequence[Grid], choices: Choices, name: str) -> Draft:
             f"{name} has several sheets with registers, {titles}: choose with --sheet, or all with --sheet '{ALL}'"
         )
         raise TableError(message)
+    for text in choices.corrections:
+        pages = _corrected(pages, text)
     drafts = [_drafted(page, choices) for page in pages]
     read = {page.grid.rows[0].where for page in pages}
     passed = [grid for grid in grids if grid.rows and grid.rows[0].where not in read]
@@ -111,9 +113,21 @@ def _page(grid: Grid, choices: Choices) -> Page | None:
     if header is None:
         return None
     columns = recognise(grid, header, asked(choices.columns, header.headings, first=grid.rows[0].first))
-    if choices.corrections:
-        grid = corrected(grid, header, columns, choices.corrections)
     return Page(grid, header, columns)
+
+
+def _corrected(pages: Sequence[Page], text: str) -> list[Page]:
+    """The pages with one cell corrected, in each that has it. Raises TableError where none has."""
+    found, wrong = [], []
+    for page in pages:
+        try:
+            found.append(replace(page, grid=corrected(page.grid, page.header, page.columns, text)))
+        except TableError as error:
+            found.append(page)
+            wrong.append(error)
+    if len(wrong) == len(pages):
+        raise wrong[0]
+    return found
 
 
 def _no_header(grids: Sequence[Grid], choices: Choices, name: str) -> TableError:
@@ -169,8 +183,7 @@ def _unread(page: Page) -> Iterator[Diagnostic]:
 
 def _stated(page: Page, layout: Layout, whole: Whole, made: Sequence[Made], choices: Choices) -> Iterator[str]:
     where = f"sheet {page.title}: " if page.title else ""
-    if choices.corrections:
-        yield from page.grid.stated[-len(choices.corrections) :]
+    yield from (text for text in page.grid.stated if text.endswith(BY_USER))
     yield from (f"{where}{text}" for text in whole.stated)
     if assumed := sum(one.order_assumed for one in made):
         rows = "1 register" if assumed == 1 else f"{assumed} registers"

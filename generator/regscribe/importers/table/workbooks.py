@@ -7,7 +7,8 @@ import zipfile
 from collections.abc import Iterable, Iterator, Sequence
 from contextlib import contextmanager
 from dataclasses import dataclass
-from typing import TYPE_CHECKING
+from decimal import Decimal
+from typing import TYPE_CHECKING, Any
 
 from regscribe.importers.table.archive import opened
 from regscribe.importers.table.grid import ALL_LINES, Grid, Lines, Row, TableError, grid_of, letters
@@ -110,8 +111,8 @@ def _grid(reader: "ExcelReader", archive: zipfile.ZipFile, sheet: Sheet, name: s
 def _rows(reader: "ExcelReader", sheet: Sheet, unvalued: frozenset[str]) -> Iterator[Row]:
     page = reader.wb[sheet.name]
     page.reset_dimensions()  # some programs write wrong ones, and rows beyond them would be lost
-    for number, values in enumerate(page.iter_rows(values_only=True), 1):
-        cells = tuple("" if value is None else _text(value) for value in values)
+    for number, row in enumerate(page.iter_rows(), 1):
+        cells = tuple("" if cell.value is None else _text(cell.value, cell) for cell in row)
         if unvalued:
             cells = tuple(_or_formula(cell, f"{letters(at)}{number}" in unvalued) for at, cell in enumerate(cells))
         yield Row(number, f"sheet {sheet.name}, row {number}", cells, letters=True)
@@ -121,12 +122,13 @@ def _or_formula(cell: str, unvalued: bool) -> str:  # noqa: FBT001 - a plain fun
     return UNVALUED if unvalued else cell
 
 
-def _text(value: object) -> str:
-    """The value as its cell shows it, without regard to its format: numbers exactly as they are stored."""
+def _text(value: object, cell: Any) -> str:  # noqa: ANN401 - one of several kinds of cells
+    """The value of a cell as it shows it: numbers exactly as they are stored, as percents where they are shown so."""
     if isinstance(value, bool):
         return "yes" if value else "no"
-    if isinstance(value, float):
-        return str(int(value)) if value.is_integer() and abs(value) < 1e15 else repr(value)  # noqa: PLR2004 - exact below
+    if isinstance(value, int | float):
+        text = str(int(value)) if float(value).is_integer() and abs(value) < 1e15 else repr(value)  # noqa: PLR2004 - exact below
+        return f"{(Decimal(text) * 100).normalize():f} %" if "%" in str(cell.number_format) else text
     if isinstance(value, dt.datetime | dt.date | dt.time):
         return value.isoformat(" ") if isinstance(value, dt.datetime) else value.isoformat()
     return str(value)

@@ -162,6 +162,15 @@ def test_cells_of_a_workbook_are_read_as_they_are_stored_with_their_places(workb
     assert found.rows[2].place(3) == "sheet Registers, cell D3"
 
 
+def test_a_number_that_is_shown_as_percents_is_read_as_it_is_shown(workbook: Callable[..., bytes]) -> None:
+    def percents(book: Any) -> None:
+        for cell in ("A2", "B2"):
+            book["Registers"][cell].number_format = "0.0%"
+
+    (found,) = grids(workbook(percents, Registers=[["Default", "Max"], [0.505, 1], [0.505, 10**14 + 1]]), "list.xlsx")
+    assert [row.cells for row in found.rows[1:]] == [("50.5 %", "100 %"), ("0.505", "100000000000001")]
+
+
 def test_places_count_from_the_sheet_where_a_part_of_it_is_read(workbook: Callable[..., bytes]) -> None:
     (found,) = grids(workbook(Registers=ROWS), "list.xlsx", range="B3:D4")
     assert (found.rows[0].place(0), found.rows[0].cells) == ("sheet Registers, cell B3", ("Speed", "0", "0.1"))

@@ -205,6 +205,13 @@ def test_a_cell_is_corrected_by_the_name_of_its_row_or_by_its_place_and_all_else
     assert found.settings["cell"] == "Fan speed / type = S16\nE3=V"
 
 
+def test_a_cell_of_one_of_several_sheets_is_corrected(workbook: Callable[..., bytes]) -> None:
+    rows = [["Address", "Name", "Type", "Access"], [1, "Speed", "in16", "R"]]
+    more = [["Address", "Name", "Type", "Access"], [2, "Flow", "in16", "R"]]
+    found = draft(workbook(One=rows, Two=more), "list.xlsx", sheet="*", cell="Flow / Type = S16")
+    assert [row and row["type"] for row in keys(found)] == [None, "int16"]
+
+
 @pytest.mark.parametrize(
     ("cell", "said"),
     [
