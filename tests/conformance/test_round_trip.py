@@ -19,7 +19,7 @@ from regscribe.losses import Exported
 from regscribe.model import Kind, Register, RegisterMap
 from regscribe.reference import Meaning, decode
 
-from .strategies import STEADY
+from .strategies import STEADY, maps
 from .suite import Json, diagnose, errors_of, whole_map
 
 FORMS = sorted({*plugins.names(plugins.EXPORTERS)} & {*plugins.names(plugins.IMPORTERS)})
@@ -240,3 +240,16 @@ def test_what_comes_back_differs_only_in_what_is_told(form: str, parts: Json, se
 
 def test_forms_of_both_groups_are_tried() -> None:
     assert {"csv", "home-assistant", "esphome", "telegraf", "modbus-exporter", "edgex", "wiren-board"} <= {*FORMS}
+
+
+@pytest.mark.parametrize("form", FORMS)
+@settings(STEADY, max_examples=FEW, derandomize=True)
+@given(parts=maps())
+def test_what_depends_on_a_device_comes_back_as_a_sound_map(form: str, parts: Json) -> None:
+    register_map, found = diagnose(whole_map(parts))
+    assume(register_map is not None and not errors_of(found))
+    assert register_map is not None
+    again = there_and_back(form, register_map)
+    if again is not None and form != "csv":
+        left = [(entry.name, entry.remarks) for entry in again.draft.each if entry.outcome is Outcome.LEFT_OUT]
+        assert left == [], str(again.exported.texts)

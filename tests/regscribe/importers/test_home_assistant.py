@@ -68,6 +68,12 @@ def test_virtual_counts_and_structures_of_several_numbers_are_arrays(imported: I
     assert found.register("two[2].value").address == 52
 
 
+@pytest.mark.parametrize(("structure", "value"), [(">xB", 0xFE), (">xb", -2), (">Bx", 0x81), (">bx", -127)])
+def test_a_structure_may_be_one_byte_of_a_word(imported: Import, structure: str, value: int) -> None:
+    sensor = f'{{name: Half, address: 1, data_type: custom, count: 1, structure: "{structure}"}}'
+    assert imported("home-assistant", f"{HUB}    sensors:\n      - {sensor}\n").value("half", 0x81FE) == value
+
+
 def test_what_is_not_understood_is_left_out_by_row_with_its_line(imported: Import) -> None:
     found = imported("home-assistant", SENSORS)
     assert {*found.left_out} == {"Mixed", "Contrary", "Sideways", "Secret"}

@@ -21,6 +21,13 @@ BY_TYPE = read_back(TYPES)
 BY_SWAP = {**read_back(SWAPS), "none": ABCD}
 STRUCT = re.compile(r"([<>!]?)((?:\d{0,3}[A-Za-z])+)")
 CODE = re.compile(r"(\d{0,3})([A-Za-z])")
+BYTES = {
+    "xB": (WireType.UINT8, "low"),
+    "xb": (WireType.INT8, "low"),
+    "Bx": (WireType.UINT8, "high"),
+    "bx": (WireType.INT8, "high"),
+}
+"""Structures of one byte of a word."""
 MOST_BITS = 16
 USUAL = "int16"
 
@@ -37,6 +44,7 @@ class Form(NamedTuple):
     orders: Orders
     words: int = 0
     repeated: int = 1
+    byte: str = ""
 
 
 def form_of(keys: Keys) -> Form:
@@ -68,6 +76,9 @@ def _custom(keys: Keys, orders: Orders) -> Form:
     found = STRUCT.fullmatch(told)
     if not found or not found[1]:
         refuse("structure", f"structure `{told}` is none that begins with >, or no structure at all")
+    if found[1] != "<" and found[2] in BYTES and orders == ABCD:
+        half, byte = BYTES[found[2]]
+        return Form(half, orders, byte=byte)
     orders = orders if found[1] != "<" else _reversed(orders)
     words = keys.whole("count")
     codes = [(int(number or 1), letter) for number, letter in CODE.findall(found[2])]
@@ -117,7 +128,8 @@ def sensor(keys: Keys, name: str, place: Span, group: str) -> Point:
     keys.drop("min_value", "Home Assistant shows it in place of lower readings; no reading is wrong by it")
     keys.drop("max_value", "Home Assistant shows it in place of higher readings; no reading is wrong by it")
     keys.drop("zero_suppress", "Home Assistant shows 0 in place of readings near it")
-    return replace(point, more={**sentinel(keys, point.type), **poll(keys)})
+    byte = {"byte": form.byte} if form.byte == "high" else {}
+    return replace(point, more={**byte, **sentinel(keys, point.type), **poll(keys)})
 
 
 def address_of(keys: Keys) -> int:

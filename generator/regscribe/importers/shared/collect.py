@@ -52,7 +52,7 @@ def collected(items: Sequence[Item]) -> tuple[tuple[Entry, ...], tuple[Diagnosti
         findings += _put(item, own)
     kept, contrary = _apart([one for one in places if isinstance(one, _Place)])
     taken: Taken = {}
-    named = {id(one): _named(one.first, taken) for one in kept if not one.is_word}
+    named = {id(one): _named(one, taken) for one in kept}
     entries = [one if isinstance(one, Entry) else _entry(one, kept, named, contrary.get(id(one))) for one in places]
     found = [diagnostic for _, diagnostic in contrary.values()]
     return tuple(entry for group in entries for entry in (group if isinstance(group, tuple) else (group,))), (
@@ -61,8 +61,16 @@ def collected(items: Sequence[Item]) -> tuple[tuple[Entry, ...], tuple[Diagnosti
     )
 
 
-def _named(point: Point, taken: Taken) -> str:
-    return free_id(str(point.more.get("id") or snake(point.name)), {"at": point.at}, taken)
+def _named(place: _Place, taken: Taken) -> str:
+    """The id of a register; words of bits are called by the first of them, or by their place."""
+    first = place.first
+    name = _word_name(place) if place.is_word else first.name
+    return free_id(str(first.more.get("id") or snake(name)), {"at": first.at}, taken)
+
+
+def _word_name(place: _Place) -> str:
+    first = place.first
+    return first.name if len(place.points) == 1 else f"Word {first.space} {first.at}"
 
 
 def _key(point: Point, *, always: bool = False) -> tuple[object, ...]:
@@ -70,7 +78,7 @@ def _key(point: Point, *, always: bool = False) -> tuple[object, ...]:
     when = repr(None if always else point.more.get("when"))
     if point.bits is not None:
         return point.space, point.at, point.length, point.orders, when, "bits"
-    return (*point.facts, when)
+    return (point.space, *point.facts, when)
 
 
 def _put(point: Point, place: _Place) -> Iterator[Diagnostic]:
@@ -94,7 +102,7 @@ def _apart(places: Sequence[_Place]) -> tuple[list[_Place], dict[int, tuple[Entr
     kept: list[_Place] = []
     contrary: dict[int, tuple[Entry, Diagnostic]] = {}
     by_address: dict[tuple[Space, int], list[_Place]] = {}
-    for place in sorted(places, key=lambda one: one.is_word):
+    for place in sorted(places, key=lambda one: (one.is_word, -one.first.length * one.is_word)):
         addresses = [(place.first.space, at) for at in place.first.addresses]
         others = {id(one): one for at in addresses for one in by_address.get(at, ())}
         wrong = next((one for one in others.values() if not _agree(place, one)), None)
@@ -117,7 +125,7 @@ def _agree(place: _Place, other: _Place) -> bool:
         return True  # two that never exist together; `check` sees whether they do
     if {place.first.type, other.first.type} <= BYTES:
         return bool(place.first.more.get("byte", "low") != other.first.more.get("byte", "low"))
-    return place.is_word and not other.is_word and _covers(other, place) and not other.first.type.is_octets
+    return place.is_word and _covers(other, place) and not other.first.type.is_octets
 
 
 BYTES = {WireType.UINT8, WireType.INT8}
@@ -131,9 +139,15 @@ def _entry(
         remark = contrary[0].remarks[0]
         return tuple(_gone(point, remark) for point in place.points) + tuple(place.lost)
     if place.is_word:
-        whole = next((one for one in kept if not one.is_word and _covers(one, place) and not _conditional(one)), None)
-        return _word(place, None if whole is None else named[id(whole)]), *place.lost
+        whole = next((one for one in kept if _is_wider(one, place)), None)
+        return _called(_word(place, None if whole is None else named[id(whole)]), named[id(place)]), *place.lost
     return _number(place, named[id(place)]), *place.lost
+
+
+def _is_wider(one: _Place, word: _Place) -> bool:
+    """Whether a word of bits is another reading of what stands in a place."""
+    others = not one.is_word or one.first.length > word.first.length
+    return others and _covers(one, word) and not _conditional(one)
 
 
 def _covers(whole: _Place, word: _Place) -> bool:
@@ -207,7 +221,7 @@ def _word(place: _Place, whole: str | None) -> Entry:
     single = all(one.bits and one.bits[0] == one.bits[1] and not _meaning(one) for one in points)
     keys = keys_of(replace(first, bits=None, type=UNSIGNED.get(first.length * WORD_BITS, first.type), more={}, unit=""))
     keys = {key: value for key, value in keys.items() if key not in {"multiply", "add", "decimals"}}
-    name = first.name if len(points) == 1 else f"Word {first.space} {first.at}"
+    name = _word_name(place)
     keys |= {"name": name, "access": "r" if whole is not None else merged}
     keys |= {"when": first.more["when"]} if "when" in first.more else {}
     keys |= {"rereads": whole} if whole is not None else {}

@@ -71,7 +71,7 @@ class Point:
     @property
     def facts(self) -> tuple[object, ...]:
         """Where and how its number stands, and what it means."""
-        return self.stretch, self.type, self.orders, self.bits, self.multiply, self.add
+        return self.addresses, self.type, self.orders, self.more.get("byte"), self.bits, self.multiply, self.add
 
 
 def keys_of(point: Point) -> dict[str, Any]:
