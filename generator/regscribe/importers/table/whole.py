@@ -4,6 +4,7 @@ import itertools
 from collections import Counter
 from collections.abc import Sequence
 from dataclasses import dataclass
+from fractions import Fraction
 
 from regscribe.importers.table.cells import Unclear
 from regscribe.importers.table.cells.addresses import Address, AddressColumn, parse_addresses
@@ -12,7 +13,7 @@ from regscribe.importers.table.cells.bits import BitColumn, parse_bits
 from regscribe.importers.table.cells.dialect_choice import choose_dialect
 from regscribe.importers.table.cells.dialects import Dialect
 from regscribe.importers.table.cells.numbers import decimal_comma
-from regscribe.importers.table.cells.ranges import Limits, parse_limits, parse_range, stated_limits
+from regscribe.importers.table.cells.ranges import Limits, parse_limits, parse_number, parse_range, stated_limits
 from regscribe.importers.table.cells.scales import Hint, ScaleColumn, Way, parse_scales
 from regscribe.importers.table.cells.spaces import SpaceCell, parse_space, parse_spaces
 from regscribe.importers.table.cells.types import TypeCell, parse_type
@@ -71,8 +72,8 @@ def whole_of(items: Sequence[Item], columns: Sequence[Column], choices: Choices,
         _type(item, cell, choice.dialect, gap) for item, cell, gap in zip(items, found.cells, gaps, strict=True)
     )
     hints_of_scale = [
-        Hint(one.numbers, wire) if isinstance(one, Limits) and wire is not None else None
-        for one, wire in zip(limits, [_wire(one, choices) for one in types], strict=True)
+        _hint_of_scale(item, one, _wire(wire, choices), comma)
+        for item, one, wire in zip(items, limits, types, strict=True)
     ]
     heading = headings.get("scale", "")
     scales = parse_scales(_texts(items, "scale"), heading, way=choices.scale, hints=hints_of_scale)
@@ -126,6 +127,19 @@ def _type(item: Item, address: Parsed, dialect: Dialect, gap: int) -> TypeCell |
 
 def _wire(found: TypeCell | Unclear | None, choices: Choices) -> WireType | None:
     return (found.type if isinstance(found, TypeCell) else None) or choices.type
+
+
+def _hint_of_scale(
+    item: Item,
+    limits: Limits | Unclear | None,
+    wire: WireType | None,
+    comma: bool | None,  # noqa: FBT001 - three states
+) -> Hint | None:
+    """What the range and the default of a row may say of its scale."""
+    numbers = limits.numbers if isinstance(limits, Limits) else ()
+    default = parse_number(item["default"], comma=comma)
+    numbers += (default,) if isinstance(default, Fraction) else ()
+    return Hint(numbers, wire) if numbers and wire is not None else None
 
 
 def _texts(items: Sequence[Item], role: str) -> list[str]:

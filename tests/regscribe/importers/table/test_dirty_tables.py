@@ -306,3 +306,10 @@ def test_a_name_and_a_column_that_say_different_scales_leave_the_number_raw(impo
     assert found.value("voltage_0_1_v", 2301) == Fraction(2301, 10)
     assert found.codes("Current (0.1 A)") == ["scale-unclear"]
     assert found.codes("Power (0.1 W)") == []  # a float needs no scale, so this is how fine it is
+
+
+def test_a_default_may_contradict_what_a_range_shows_of_scales(imported: Import) -> None:
+    rows = "0,A,U16,0.1,0,100.5,50\n1,B,INT16,10,-10,10,1.5\n"  # A multiplies, B divides
+    found = imported("table", f"Address,Name,Type,Scale,Min,Max,Default\n{rows}")
+    assert "scale-unclear" in found.codes("A")
+    assert "scale-unclear" in found.codes("B")

@@ -142,11 +142,13 @@ def _listed(numbers: Sequence[Fraction]) -> str:
     return f"{shown} and {len(numbers) - MOST_LISTED} more" if len(numbers) > MOST_LISTED else shown
 
 
-def _proven(hinted: Sequence[tuple[Fraction | None, Hint | None]]) -> tuple[Way, str] | None:
-    """The only way in which the ranges fit the types, if all rows agree."""
+def _proven(hinted: Sequence[tuple[Fraction | None, Hint | None]]) -> tuple[Way | None, str] | None:
+    """The only way in which the ranges fit the types; none, if rows contradict each other."""
     votes = [one for number, hint in hinted if number and hint and (one := _possible(number, hint))]
     ways = set(votes)
-    if len(ways) != 1:
+    if len(ways) > 1:
+        return None, "some ranges fit their types only if the numbers multiply, and others only if they divide"
+    if not ways:
         return None
     way = ways.pop()
     rows = "the range of 1 row fits its type" if len(votes) == 1 else f"the ranges of {len(votes)} rows fit their types"

@@ -175,6 +175,10 @@ def test_rows_whose_ranges_contradict_each_other_show_nothing() -> None:
     divides = Hint((Fraction(-32768, 10), Fraction(32767, 10)), WireType.INT16)
     multiplies = Hint((Fraction(1, 2), Fraction(5)), WireType.UINT16)
     assert parse_scales(["10", "0.5"], "Scale", hints=[divides, multiplies]).way is None
+    tenfold = Hint(
+        (Fraction(1, 2), Fraction(655)), WireType.UINT8
+    )  # 5 and 6550 stored do not fit, nor do 1/20 and 65.5
+    assert parse_scales(["10", "100"], "Scale", hints=[divides, tenfold]).way is Way.DIVIDE
 
 
 def test_what_the_user_says_wins() -> None:
