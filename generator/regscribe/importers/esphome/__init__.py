@@ -33,8 +33,6 @@ GROUPS = {
 }
 ELSEWHERE = ("packages", "<<")
 VARIABLE = re.compile(r"\$(?:\{(\w+)\}|(\w+))")
-NOBODY = ""
-"""The controller of items that name none."""
 
 
 def likeness(data: bytes, name: str) -> Likeness:  # noqa: ARG001 - the contract of importers

@@ -137,10 +137,3 @@ def chosen(option: str, wanted: str, every: Sequence[str], what: str) -> str:
     wrong = f"--{option} {wanted}: there is no such {what}"
     message = f"{wrong if wanted else f'there are several: say by --{option} which {what}'}, of {listed}"
     raise OptionError(message)
-
-
-def assumed_orders(points: Iterable[Item]) -> str:
-    """What is stated where a source does not say the order of words: of how many rows it is assumed."""
-    several = sum(isinstance(one, Point) and one.length > 1 and not one.type.is_octets for one in points)
-    told = f"no word order is given: ABCD (the most significant word first) is assumed of {several} numbers"
-    return told if several else ""
