@@ -1,20 +1,14 @@
 """Points of a source as entries of a draft: bits of one word together, doubles and overlaps told with both places."""
 
-from collections.abc import Iterable, Iterator, Sequence
-from dataclasses import dataclass, field, replace
-from typing import Any
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass, field
 
 from regscribe.draft import Entry, Remark
 from regscribe.draft.ids import Taken, free_id
-from regscribe.draft.labels import labelled
-from regscribe.files import OneLine
-from regscribe.importers.shared.points import Point, entry_of, field_of, keys_of, lost_in_fields
+from regscribe.importers.shared.points import Point
+from regscribe.importers.shared.registers import called, number_of, word_name, word_of
 from regscribe.model import Diagnostic, Related, Severity, Space, WireType
 from regscribe.model.identifiers import snake
-
-WORD_BITS = 16
-UNSIGNED = {16: WireType.UINT16, 32: WireType.UINT32, 48: WireType.UINT48, 64: WireType.UINT64}
-"""Types of words of bits by their bits."""
 
 Item = Point | Entry
 """A point, or an entry that is left out already."""
@@ -64,13 +58,8 @@ def collected(items: Sequence[Item]) -> tuple[tuple[Entry, ...], tuple[Diagnosti
 def _named(place: _Place, taken: Taken) -> str:
     """The id of a register; words of bits are called by the first of them, or by their place."""
     first = place.first
-    name = _word_name(place) if place.is_word else first.name
+    name = word_name(place.points) if place.is_word else first.name
     return free_id(str(first.more.get("id") or snake(name)), {"at": first.at}, taken)
-
-
-def _word_name(place: _Place) -> str:
-    first = place.first
-    return first.name if len(place.points) == 1 else f"Word {first.space} {first.at}"
 
 
 def _key(point: Point, *, always: bool = False) -> tuple[object, ...]:
@@ -140,8 +129,9 @@ def _entry(
         return tuple(_gone(point, remark) for point in place.points) + tuple(place.lost)
     if place.is_word:
         whole = next((one for one in kept if _is_wider(one, place)), None)
-        return _called(_word(place, None if whole is None else named[id(whole)]), named[id(place)]), *place.lost
-    return _number(place, named[id(place)]), *place.lost
+        word = word_of(place.points, None if whole is None else named[id(whole)])
+        return called(word, named[id(place)]), *place.lost
+    return called(number_of(place.points), named[id(place)]), *place.lost
 
 
 def _is_wider(one: _Place, word: _Place) -> bool:
@@ -157,98 +147,6 @@ def _covers(whole: _Place, word: _Place) -> bool:
 
 def _conditional(place: _Place) -> bool:
     return "when" in place.first.more
-
-
-def _number(place: _Place, name: str) -> Entry:
-    """The entry of a number; rows that say the same number again are told, and what they say besides is taken."""
-    first, *others = place.points
-    if not others:
-        entry = entry_of(first)
-        return _called(entry, name)
-    merged = first
-    parts = [_row(first, first.remarks)]
-    for one in others:
-        more = {**_besides(one, merged), **merged.more}
-        access = "rw" if {merged.access, one.access} != {merged.access} else merged.access
-        merged = replace(merged, more=more, access=access, unit=merged.unit or one.unit)
-        parts.append(_row(one, (*one.remarks, _again(first, one, more))))
-    entry = entry_of(replace(merged, remarks=()))
-    return replace(_called(entry, name), parts=tuple(parts))
-
-
-def _called(entry: Entry, name: str) -> Entry:
-    """The entry with its id, where the name alone does not say it."""
-    keys = entry.keys or {}
-    others = {key: value for key, value in keys.items() if key != "id"}
-    own = {} if snake(keys["name"]) == name else {"id": name}
-    return entry if entry.members else replace(entry, keys={**own, **others})
-
-
-MEANINGS = frozenset({"enum", "flags", "fields", "kind", "range", "valid"})
-"""Keys of which a register has one."""
-
-
-def _besides(one: Point, merged: Point) -> dict[str, Any]:
-    """Further keys of a row that says a register again, which those before it leave open."""
-    closed = ITS_OWN | (MEANINGS if MEANINGS & merged.more.keys() else frozenset())
-    return {key: value for key, value in one.more.items() if key not in closed}
-
-
-ITS_OWN = frozenset({"id", "when"})
-"""Keys that another row of the same register does not change."""
-
-
-def _again(first: Point, one: Point, more: dict[str, Any]) -> Remark:
-    contrary = [key for key, value in one.more.items() if more.get(key) != value and key not in ITS_OWN]
-    contrary += ["unit"] if one.unit and one.symbol != first.symbol else []
-    lost = f"; its {', '.join(contrary)} is not taken over" if contrary else ""
-    message = f"the same register as `{first.name}` ({first.place}){lost}"
-    return Remark("same-register", message, lossy=bool(contrary))
-
-
-def _word(place: _Place, whole: str | None) -> Entry:
-    """The entry of a word of bits; the bits of a number that is there as well are another reading of it."""
-    first = place.points[0]
-    points = place.points
-    remarks = [[*one.remarks] for one in points]
-    access = {one.access for one in points}
-    merged = "rw" if access - {"r"} else "r"
-    for one, own in zip(points, remarks, strict=True):
-        if whole is not None and one.access != "r":
-            own.append(Remark("write-dropped", f"read only: the word is written as `{whole}`"))
-        elif one.access != merged:
-            own.append(Remark("access-changed", f"{merged} as the other bits of its word, not {one.access}"))
-    single = all(one.bits and one.bits[0] == one.bits[1] and not _meaning(one) for one in points)
-    keys = keys_of(replace(first, bits=None, type=UNSIGNED.get(first.length * WORD_BITS, first.type), more={}, unit=""))
-    keys = {key: value for key, value in keys.items() if key not in {"multiply", "add", "decimals"}}
-    name = _word_name(place)
-    keys |= {"name": name, "access": "r" if whole is not None else merged}
-    keys |= {"when": first.more["when"]} if "when" in first.more else {}
-    keys |= {"rereads": whole} if whole is not None else {}
-    if single:
-        keys["flags"] = labelled({one.bits[0]: one.name for one in points if one.bits}, "bit")
-    else:
-        keys["fields"] = _fields(points)
-        for own, lost in zip(remarks, lost_in_fields(points), strict=True):
-            own.extend(lost)
-    parts = tuple(_row(one, tuple(own)) for one, own in zip(points, remarks, strict=True))
-    return Entry(name=name, place=first.place, keys=keys, group=first.group, parts=parts)
-
-
-def _meaning(point: Point) -> bool:
-    """Whether a bit has more than a label."""
-    return bool(set(point.more) - {"when"}) or point.multiply != 1 or bool(point.add or point.unit)
-
-
-def _fields(points: Sequence[Point]) -> dict[str, Any]:
-    taken: Taken = {}
-    ids = [free_id(snake(one.name), {"at": (one.bits or (0,))[0]}, taken, "part") for one in points]
-    return OneLine(zip(ids, map(field_of, points), strict=True))
-
-
-def _row(point: Point, remarks: Iterable[Remark]) -> Entry:
-    """A row whose facts stand in the keys of another entry."""
-    return Entry(name=point.name, place=point.place, keys={}, remarks=tuple(remarks), group=point.group)
 
 
 def _where(point: Point) -> str:
