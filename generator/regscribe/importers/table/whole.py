@@ -2,7 +2,7 @@
 
 import itertools
 from collections import Counter
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from fractions import Fraction
 
@@ -15,12 +15,13 @@ from regscribe.importers.table.cells.dialects import Dialect
 from regscribe.importers.table.cells.numbers import decimal_comma
 from regscribe.importers.table.cells.ranges import Limits, parse_limits, parse_number, parse_range, stated_limits
 from regscribe.importers.table.cells.scales import Hint, ScaleColumn, Way, parse_scales
-from regscribe.importers.table.cells.spaces import SpaceCell, parse_space, parse_spaces
+from regscribe.importers.table.cells.spaces import SpaceCell, parse_spaces
 from regscribe.importers.table.cells.types import TypeCell, parse_type
 from regscribe.importers.table.choices import Choices
 from regscribe.importers.table.columns import Column
 from regscribe.importers.table.headings import AT
 from regscribe.importers.table.layout import Item
+from regscribe.importers.table.titles import space_of_title
 from regscribe.model import Space, WireType
 from regscribe.model.identifiers import snake
 
@@ -81,6 +82,7 @@ def whole_of(items: Sequence[Item], columns: Sequence[Column], choices: Choices,
     stated = (
         found.evidence,
         said.evidence if "space" in headings else "",
+        *_titled(items, said.cells, page),
         _assumed_space(hints, found.cells, choices),
         *choice.stated,
         scales.evidence if "scale" in headings else _no_scale(items, headings),
@@ -164,11 +166,18 @@ def _hint(cell: SpaceCell | Unclear | None, item: Item, page: str) -> Space | Un
         return cell
     if cell is not None:
         return cell.space
-    for text in (item.section, page):
-        found = parse_space(text) if text else None
-        if isinstance(found, SpaceCell):
-            return found.space
-    return None
+    return space_of_title(item.section) or space_of_title(page)
+
+
+def _titled(items: Sequence[Item], cells: Sequence[object], page: str) -> Iterator[str]:
+    """What titles say of the spaces of the rows below them."""
+    said: Counter[tuple[str, Space]] = Counter()
+    for item, cell in zip(items, cells, strict=True):
+        title = item.section if space_of_title(item.section) else page
+        if cell is None and (space := space_of_title(title)):
+            said[title, space] += 1
+    for (title, space), count in said.items():
+        yield f"the title `{title}` says that {count} rows are in the space {space}"
 
 
 def _space(hint: Space | Unclear | None, address: Parsed, choices: Choices) -> Space | Unclear:

@@ -243,6 +243,29 @@ def test_titles_of_sections_become_groups_and_footnotes_are_told() -> None:
     assert "this row is no register and the title of none: `* only type 3`" in found.findings[0].message
 
 
+@pytest.mark.parametrize(
+    ("title", "space"),
+    [
+        ("Input registers", "input"),
+        ("Modbus Holding Registers (FC03)", "holding"),
+        ("Eingangsregister", "input"),
+        ("Discrete Inputs", "discrete"),
+        ("Coils:", "coil"),
+        ("输入寄存器", "input"),
+        ("Digital inputs", None),
+        ("Eingangsleistung", None),
+        ("Coil temperature", None),
+        ("Do not write", None),
+        ("Input and holding registers of 8 inputs", None),
+    ],
+)
+def test_a_title_says_a_space_only_by_its_whole_name(title: str, space: str | None) -> None:
+    found = draft(PLAIN + f"{title},,,\n0,Speed,,R\n", type="uint16")
+    assert (found.entries[0].keys or {}).get("space", "holding") == (space or "holding")
+    stated = f"the title `{title}` says that 1 rows are in the space {space}"
+    assert (stated in found.stated) == (space is not None)
+
+
 def test_rows_without_address_and_name_continue_the_codes_above() -> None:
     text = "Address,Name,Type,Access,Values\n0,Mode,U16,R/W,0 = off\n,,,,1 = on\n,,,,2 = auto\n1,Flow,U16,R,\n"
     found = draft(text)
