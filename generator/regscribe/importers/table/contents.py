@@ -81,17 +81,24 @@ _ELSE: Mapping[str, tuple[Callable[[str], bool], Mapping[str, Callable[[str], bo
 """Roles whose headings mean something else to some people: what their cells are, what they may be, and else."""
 
 
+def _by_variety(role: str, filled: Sequence[str], said: str) -> tuple[str, str] | None:
+    """Another role for names that are few for many rows, and for offsets that differ in most; None for all else."""
+    texts = len(set(filled))
+    if len(filled) < FEWEST:
+        return None
+    if role == "name" and texts * 2 < len(filled) and not all(map(str.isdecimal, filled)):
+        return "group", f"{said}, but {len(filled)} cells have {texts} texts"
+    if role == "offset" and texts * 2 > len(filled):
+        return "", f"{said}, but {texts} of {len(filled)} cells differ, as offsets of addresses do"
+    return None
+
+
 def judge(role: str, cells: Sequence[str], *, known: bool) -> tuple[str, str]:
     """The role of a column whose heading claims one, with the evidence; its cells may show that it is another."""
     filled = [cell for cell in cells if cell][:SEEN]
     said = f"a heading for {ROLES[role]}" if known else f"a word for {ROLES[role]} in the heading"
-    if (
-        role == "name"
-        and not all(map(str.isdecimal, filled))
-        and len(filled) >= FEWEST
-        and len(set(filled)) * 2 < len(filled)
-    ):
-        return "group", f"{said}, but {len(filled)} cells have {len(set(filled))} texts"
+    if found := _by_variety(role, filled, said):
+        return found
     if role not in _ELSE or not filled:
         return role, said
     wanted, others, otherwise = _ELSE[role]

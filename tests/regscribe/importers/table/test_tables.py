@@ -122,6 +122,16 @@ def test_cells_beyond_the_header_are_told_as_a_column_without_a_heading() -> Non
     ]
 
 
+def test_offsets_that_all_differ_are_those_of_addresses_and_are_not_added_to_values() -> None:
+    rows = "".join(f"{40001 + number},{number},Value {number},U16,R\n" for number in range(8))
+    found = draft(f"Register,Offset,Name,Type,Access\n{rows}")
+    assert all("add" not in (entry.keys or {"add": 0}) for entry in found.entries)
+    assert found.recognised[1].meaning == "not understood"
+    assert "8 of 8 cells differ, as offsets of addresses do" in found.recognised[1].evidence
+    said = draft(f"Register,Offset,Name,Type,Access\n{rows}", columns="offset=Offset")
+    assert [(entry.keys or {}).get("add", 0) for entry in said.entries] == list(range(8))
+
+
 def test_a_column_without_a_known_heading_is_told_by_its_cells() -> None:
     found = draft("Address,Name,Quux,Access\n0,Speed,U16,R\n1,Flow,S16,R\n2,Level,U16,R\n")
     assert found.recognised[2].meaning == "type"
