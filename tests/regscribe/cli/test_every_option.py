@@ -66,16 +66,18 @@ PRINTING = sorted(USUAL.keys() - {"simulate", "restore", "clone", "program", "wr
 
 @pytest.fixture
 def bench(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    """A folder with a map, its driver and some strange files."""
-    monkeypatch.chdir(tmp_path)
-    monkeypatch.setenv("XDG_CACHE_HOME", str(tmp_path / "cache"))
-    put_map(tmp_path)
-    (tmp_path / "table.csv").write_text("Address,Name,Type,Access\n1,Level,uint16,r\n")
-    (tmp_path / "bytes").write_bytes(bytes(range(256)))
-    (tmp_path / "closed").mkdir(mode=0)
+    """A folder with a map, its driver and some strange files, alone in the folder above."""
+    folder = tmp_path / "bench"
+    folder.mkdir()
+    monkeypatch.chdir(folder)
+    monkeypatch.setenv("XDG_CACHE_HOME", str(folder / "cache"))
+    put_map(folder)
+    (folder / "table.csv").write_text("Address,Name,Type,Access\n1,Level,uint16,r\n")
+    (folder / "bytes").write_bytes(bytes(range(256)))
+    (folder / "closed").mkdir(mode=0)
     assert run(["generate", "--out", "mine"]) == 0
     text = "format: 1\npackages: [./mine/regscribe_devices/acme]\n"
-    (tmp_path / "regscribe.yaml").write_text(text, encoding="utf-8")
+    (folder / "regscribe.yaml").write_text(text, encoding="utf-8")
 
 
 @pytest.fixture
