@@ -88,6 +88,8 @@ def _by_variety(role: str, filled: Sequence[str], said: str) -> tuple[str, str] 
         return None
     if role == "name" and texts * 2 < len(filled) and not all(map(str.isdecimal, filled)):
         return "group", f"{said}, but {len(filled)} cells have {texts} texts"
+    if role == "decimals" and texts * 2 > len(filled):
+        return AT, f"{said}, but {texts} of {len(filled)} cells differ, as addresses do"
     if role == "offset" and texts * 2 > len(filled):
         return "", f"{said}, but {texts} of {len(filled)} cells differ, as offsets of addresses do"
     return None

@@ -80,7 +80,7 @@ _WORDS: Mapping[str, str] = {  # each list from the plainest word to the one tha
     "lasa skriva | dostep | odczyt zapis | 读写 | 访问 | 权限 | 读写属性 | 属性 | 读 写",
     "scale": "scale | scaling | factor | scale factor | scalefactor | scaling factor | multiplier | "
     "multiplicator | gain | divisor | divider | division factor | resolution | sf | coefficient | conversion | "
-    "ratio | scale x | lsb | increment | weight | precision | accuracy | magnification | faktor | skalierung | "
+    "scale x | lsb | increment | magnification | faktor | skalierung | "
     "skalierungsfaktor | aufloesung | auflosung | teiler | multiplikator | facteur | echelle | "
     "facteur d echelle | mise a l echelle | multiplicateur | diviseur | fattore | scala | fattore di scala | "
     "moltiplicatore | divisore | risoluzione | escala | factor de escala | multiplicador | resolucion | schaal | "

@@ -132,6 +132,17 @@ def test_offsets_that_all_differ_are_those_of_addresses_and_are_not_added_to_val
     assert [(entry.keys or {}).get("add", 0) for entry in said.entries] == list(range(8))
 
 
+def test_a_column_of_decimal_addresses_is_none_of_decimal_places() -> None:
+    rows = "".join(f"0x{number:02X},{number},Value {number},U16,R\n" for number in range(8))
+    found = draft(f"Hex,Decimal,Name,Type,Access\n{rows}")
+    assert [column.meaning for column in found.recognised][:2] == ["at", "at"]
+    assert [entry.keys for entry in found.entries][7] == {"at": 7, "name": "Value 7", "access": "r"}
+
+
+def test_an_accuracy_is_no_scale() -> None:
+    assert "multiply" not in only("Address,Name,Type,Access,Accuracy\n0,Level,U16,R,0.5\n")
+
+
 def test_a_column_without_a_known_heading_is_told_by_its_cells() -> None:
     found = draft("Address,Name,Quux,Access\n0,Speed,U16,R\n1,Flow,S16,R\n2,Level,U16,R\n")
     assert found.recognised[2].meaning == "type"
