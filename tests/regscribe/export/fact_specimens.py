@@ -77,6 +77,7 @@ SPECIMENS: dict[str, tuple[Specimen, ...]] = {
     "range": (one("range: 0..50"), one("decimals: 1, range: 0..50, unit: °C", "decimals: 1, unit: °C")),
     "range-register": (one("range: {from: 0, to: mode}", "range: 0..1"),),
     "range-union": (one("range: [0..5, 8..9]", "range: 0..9"),),
+    "step": (one("step: 5"), one("decimals: 1, step: 0.5, range: 0..50", "decimals: 1, range: 0..50")),
     "valid": (
         one("valid: 0..100, access: r", "access: r"),
         one("valid: 0..100, unit: V, access: r", "unit: V, access: r"),

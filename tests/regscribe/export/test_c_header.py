@@ -39,6 +39,21 @@ def test_a_register_has_address_words_space_type_order_and_access(constants: Cal
     }
 
 
+def test_a_record_of_a_file_has_its_number_there_and_that_of_the_file(constants: Callable[..., dict[str, str]]) -> None:
+    found = constants(
+        "at: 7, name: Record, space: file, file: 4, access: r", top="protocol: {functions: [3, 6, 16, 20]}"
+    )
+    assert (found["RECORD_ADDR"], found["RECORD_FILE"]) == ("7u", "4u")
+
+
+def test_a_value_of_a_queue_has_its_place_there_and_the_address_of_the_queue(
+    constants: Callable[..., dict[str, str]],
+) -> None:
+    top = "protocol: {functions: [3, 6, 16, 24]}"
+    found = constants("at: 1, name: Event, space: queue, queue: 1246, access: r", top=top)
+    assert (found["EVENT_ADDR"], found["EVENT_QUEUE"]) == ("1u", "1246u")
+
+
 def test_a_scale_is_an_exact_ratio_of_whole_numbers(constants: Callable[..., dict[str, str]]) -> None:
     found = constants("at: 0, name: Third, divide: 3, add: -0.25")
     keys = ("SCALE_NUM", "SCALE_DEN", "OFFSET_NUM", "OFFSET_DEN")

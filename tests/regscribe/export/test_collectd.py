@@ -8,7 +8,7 @@ import pytest
 
 from regscribe.export.collectd import TARGET, collectd_text
 from regscribe.export.device import Device, Place, Request, device_of
-from regscribe.losses import Grade
+from regscribe.losses import Exported, Grade
 from regscribe.model import (
     Access,
     Case,
@@ -31,9 +31,12 @@ from regscribe.model import (
     order_from,
 )
 from regscribe.model import Is as Ask
+from regscribe.plugins import OptionError
 from regscribe.reference import Surroundings
 
 Only = Callable[[Register], RegisterMap]
+Export = Callable[..., Exported]
+Small = Callable[..., str]
 PLACE = Place(unit=7, host="10.0.0.7", port=1502)
 NOTHING = Surroundings()
 
@@ -188,3 +191,30 @@ def test_a_name_longer_than_collectd_keeps_is_left_out(only: Only) -> None:
     longest = replace(register(), id=name, path=name)  # oven. and 122 letters are 127
     assert f"left out: {name} - its name has more than 127 characters" in text(only(longest))
     assert f'<Data "oven.{name[1:]}">' in text(only(replace(longest, id=name[1:], path=name[1:])))
+
+
+TWO_BLOCKS = """
+blocks: {near: {base: {given: start}}, far: {base: {given: end}}}
+givens:
+  start: {type: number, description: where it begins, reason: a switch}
+  end: {type: number, description: where the other begins, reason: a switch}
+"""
+IN_BLOCKS = """
+  - {id: near, name: Near, source: "3", block: near, registers: [{at: 2, name: Here, access: r}]}
+  - {id: far, name: Far, source: "3", block: far, registers: [{at: 2, name: There, access: r}]}
+"""
+
+
+def test_a_register_of_a_block_that_nobody_placed_is_told_as_left_out(export: Export, small: Small) -> None:
+    text = small("at: 0, name: Level, access: r", top=TWO_BLOCKS, tail=IN_BLOCKS)
+    made = export("collectd", text, at="h:502", base="near=40")
+    assert [one.done for one in made.losses if (one.register, one.fact) == ("there", "register")] == [
+        "left out: nobody stated where its block `far` begins: say it by --base far=ADDRESS"
+    ]
+    assert "RegisterBase 42" in str(made.texts[""])
+
+
+def test_a_register_of_such_a_block_asked_for_by_name_is_there_but_has_no_place(export: Export, small: Small) -> None:
+    text = small("at: 0, name: Level, access: r", top=TWO_BLOCKS, tail=IN_BLOCKS)
+    with pytest.raises(OptionError, match=r"say it by --base far=ADDRESS"):
+        export("collectd", text, at="h:502", base="near=40", register="there")

@@ -179,6 +179,12 @@ def test_a_number_is_divided_by_multiply_and_has_its_limits(one: Made) -> None:
     assert not {"lambda", "write_lambda"} & found.keys()
 
 
+def test_a_number_that_is_set_in_coarse_steps_offers_these(one: Made, losses: Lost) -> None:
+    row = "at: 0, name: A, decimals: 2, step: 0.5, range: 0..40, access: rw"
+    assert one("number", row)["step"] == 0.5
+    assert losses(row)["step"] == "LOST: offered to users: a value between two steps is written as it comes"
+
+
 def test_a_number_with_an_offset_has_lambdas(one: Made) -> None:
     # value = 0.1 raw - 40, so raw = (value + 40) / 0.1
     found = one("number", "at: 0, name: A, multiply: 0.1, add: -40, range: -40..100, access: rw")

@@ -17,6 +17,7 @@ MEANING = """\
  * value = number on the wire * _SCALE_NUM / _SCALE_DEN + _OFFSET_NUM / _OFFSET_DEN; without _SCALE_NUM it is the number
  * _ADDR: from 0, as in requests   _WORDS: registers (or bits) from there on   _SPACE: the function that reads it
  * _ORDER: how the bytes A B C D stand on the wire, A the most significant; of a single byte ABCD is that of the low one
+ * _FILE, _QUEUE: the file whose record, or the queue whose value _ADDR is (the count of a queue is 0)
  * _ACCESS: 1 read, 2 write, 3 both   _WRITE_ADDR: where it is not _ADDR
  * _RAW_MIN, _RAW_MAX: ends of what may be written, as numbers on the wire; _FAULT_..: numbers that are no values"""
 

@@ -32,9 +32,14 @@ class Registers:
         """The comment of a register and its constants."""
         point, name = entry.point, f"{self._prefix}_{entry.id.upper()}"
         yield from self._comment(entry)
-        yield self._define(f"{name}_ADDR", entry.address(point.address), entry.arguments)
+        space = point.wire.space
+        yield self._define(f"{name}_ADDR", entry.address(space.inside(point.address)), entry.arguments)
         if point.write not in {None, point.address}:
-            yield self._define(f"{name}_WRITE_ADDR", entry.address(point.write or 0), entry.arguments)
+            written = point.register.write_view.space.inside(point.write or 0)
+            yield self._define(f"{name}_WRITE_ADDR", entry.address(written), entry.arguments)
+        for part in ("file", "queue"):
+            if part in (found := space.facts(point.address)):
+                yield self._define(f"{name}_{part.upper()}", f"{found[part]}u")
         for number, (low, high, _) in enumerate(entry.spans, 1):
             behind = f"_{number}" if len(entry.spans) > 1 else ""
             yield self._define(f"{name}_FIRST{behind}", f"{low}u")

@@ -142,6 +142,10 @@ def exported(target: Target, maps: Sequence[RegisterMap], options: Mapping[str, 
 def device_of(target: Target, request: Request) -> Device:
     """Return the device that was asked for, with the losses that follow from what the target declares."""
     device = Device(request, target)
+    for one in request.unplaced:
+        block = one.block
+        why = f"left out: nobody stated where its block `{block}` begins: say it by --base {block}=ADDRESS"
+        device.lose(one, LEFT_OUT, Grade.LOST, why)
     device.points = tuple(point for one in request.registers if (point := _point(one, device)) is not None)
     device.losses += device_losses(request.register_map, request.model, target.carries)
     return device

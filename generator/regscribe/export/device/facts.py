@@ -7,9 +7,18 @@ So a fact that nobody thought of is told and not dropped: a test holds the table
 from collections.abc import Callable, Iterator, Mapping
 from dataclasses import replace
 from enum import StrEnum
+from fractions import Fraction
 from typing import NamedTuple
 
-from regscribe.emit.words import condition_words, conversion_words, one_line, order_words, range_words, sentinel_words
+from regscribe.emit.words import (
+    condition_words,
+    conversion_words,
+    one_line,
+    order_words,
+    range_words,
+    sentinel_words,
+    step_words,
+)
 from regscribe.losses import Grade, Loss
 from regscribe.model import IDENTITY, Cases, Kind, Model, Number, OrderCases, Range, Register, RegisterMap, View, show
 from regscribe_runtime.values.kinds import MOMENTS
@@ -97,6 +106,17 @@ def _range_register(register: Register) -> str:
 
 def _range_union(register: Register) -> str:
     return "its range has gaps" if any(len(case.then.intervals) > 1 for case in register.range) else ""
+
+
+def _step(register: Register) -> str:
+    """A step that is coarser than the number on the wire of each view."""
+    stepped = [case.then for case in register.scale if case.then.step is not None]
+    coarse = any(
+        not view.type.is_integer or one.places is not None or (one.step or 0) * Fraction(view.factor) != 1
+        for one in stepped
+        for view in register.views
+    )
+    return f"it can be set in steps only{step_words(stepped[0])}" if coarse else ""
 
 
 def _valid(register: Register) -> str:
@@ -214,6 +234,7 @@ FACTS = (
     Fact("range", "range of writes", LOST, ("range",), lambda one: _range(one) if one.access.writable else "", "write"),
     Fact("range-register", "range by other registers", WRONG, ("range",), _range_register, "range"),
     Fact("range-union", "range with gaps", LOST, ("range",), _range_union, "range"),
+    Fact("step", "steps of writes", LOST, ("scale",), lambda one: _step(one) if one.access.writable else "", "write"),
     Fact("valid", "limits of a valid reading", LOST, ("valid",), _valid),
     Fact("saturates", "that a reading may be clipped", WRONG, ("views",), _saturates),
     Fact("sentinel", "fault words", WRONG, ("sentinels",), lambda one: _sentinels(one) if one.sentinels else ""),
@@ -363,7 +384,6 @@ TOLD = {
     "write-echo": "whether a write was refused",
     "truth-of-words": "words that are neither 0 nor 1",
     "label-changed": "characters of a label that the form does not have",
-    "step": "values between two steps",
     "type-unread": "a type that the form has, and the usual program for it does not read",
     "unit-unmapped": "a unit that the form does not know",
     "unit-base": "a unit whose values are exported in another one",

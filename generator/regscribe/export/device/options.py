@@ -69,7 +69,7 @@ class Request:
     """What the options ask for: the model as it stands on the device, the registers chosen, state, place, name, poll.
 
     `layout` is where its blocks stand, `blocks` the block of each register in one, by path. `named` are paths that were
-    asked for by name. `place` is None where none was said.
+    asked for by name. `place` is None where none was said. `unplaced` are registers of blocks whose base nobody stated.
     """
 
     register_map: RegisterMap
@@ -83,20 +83,24 @@ class Request:
     every: int
     place: Place | None
     blocks: Mapping[str, str] = field(default_factory=dict)
+    unplaced: tuple[Register, ...] = ()
 
 
 def request_of(maps: Sequence[RegisterMap], options: Mapping[str, str], form: str, *, placed: bool) -> Request:
     """Return what the options ask for; `placed`: the format must know where the device answers. Raises OptionError."""
-    wanted = options["model"] or (maps[0].only_model if maps else "")
-    if len(maps) != 1 or not wanted or (placed and not options["at"]):
+    asked = options["model"] or (maps[0].only_model if maps else "")
+    if len(maps) != 1 or not asked or (placed and not options["at"]):
         where = ", and where it answers (--at)" if placed else ""
         message = f"--format {form} is for one device: name one MAP, its --model{where}"
         raise OptionError(message)
     (register_map,) = maps
-    written = model_of(register_map, wanted)
+    written = model_of(register_map, asked)
     model, layout = _located(register_map, written, _each(options["base"]), form)
     known = _surroundings(register_map, model, _each(options["with"]), _each(options["given"]))
-    registers, named = chosen(model, _each(options.get("group", "")), _each(options.get("register", "")))
+    wanted, named = chosen(written, _each(options.get("group", "")), _each(options.get("register", "")))
+    paths = {one.path for one in wanted}
+    standing = {one.path for one in model.registers}
+    registers = tuple(one for one in model.registers if one.path in paths)
     usual = register_map.default_unit or max(1, register_map.protocol.unit_ids[0])
     unit = _whole("unit", options.get("unit", "") or str(usual), LAST_UNIT)
     called = options.get("name", "") or f"{model.class_name}-{unit}"
@@ -108,6 +112,7 @@ def request_of(maps: Sequence[RegisterMap], options: Mapping[str, str], form: st
         model=model,
         layout=layout,
         registers=registers,
+        unplaced=tuple(one for one in wanted if one.path not in standing),
         named=named,
         blocks={one.path: one.block for one in written.registers if one.block},
         known=known,

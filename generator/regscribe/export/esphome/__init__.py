@@ -20,7 +20,7 @@ options = (*(one for one in DEVICE_OPTIONS if one.name != "at"), BUS)
 carries: Carries = RESOLVED | {
     **dict.fromkeys(("scale", "offset", "unit", "flags", "string", "functions", "limits"), Carry.WHOLE),
     **dict.fromkeys(("sentinel", "enum", "fields", "boolean", "version", "name"), Carry.PARTLY),
-    **dict.fromkeys(("write", "range", "pause"), Carry.PARTLY),
+    **dict.fromkeys(("write", "range", "step", "pause"), Carry.PARTLY),
 }
 
 LONGEST_TEXT = 250

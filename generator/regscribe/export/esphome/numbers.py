@@ -4,6 +4,7 @@ from fractions import Fraction
 
 from regscribe.export.device import Device, Point
 from regscribe.export.device.numbers import EXACT_SINGLE, decimal, is_exact
+from regscribe.export.device.places import step_of
 from regscribe.export.device.writes import obstacle, writes_several
 from regscribe.export.esphome.items import Item, Keys
 from regscribe.export.esphome.sensors import (
@@ -75,7 +76,7 @@ def _written(device: Device, point: Point, low: Fraction, high: Fraction) -> Key
         device.lose(point.register, "range", Grade.LOST, done)
     done = "after a write the value that was asked for is shown, refused or not, until the next poll"
     device.lose(point.register, "write-echo", Grade.LOST, done)
-    step = STEP if point.wire.type.is_float else abs(point.slope)
+    step = _step(device, point)
     several = writes_several(point, device.register_map.protocol)
     return {
         "min_value": Plain(decimal(least)),
@@ -83,6 +84,17 @@ def _written(device: Device, point: Point, low: Fraction, high: Fraction) -> Key
         "step": Plain(decimal(step)),
         **({"use_write_multiple": True} if several and point.words == 1 else {}),
     }
+
+
+def _step(device: Device, point: Point) -> Fraction:
+    """The step that is offered: that of the map where it states one, else that of the number on the wire."""
+    stated = step_of(point, device.request.known)
+    if stated is not None:
+        done = "offered to users: a value between two steps is written as it comes" if stated else "left out"
+        device.lose(point.register, "step", Grade.LOST, done)
+    if stated:
+        return abs(point.slope) * stated
+    return STEP if point.wire.type.is_float else abs(point.slope)
 
 
 def _conversion(point: Point) -> Keys:

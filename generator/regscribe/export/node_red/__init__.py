@@ -31,7 +31,7 @@ carries: Carries = RESOLVED | {
     **dict.fromkeys(("scale", "offset", "unit", "valid", "saturates"), Carry.WHOLE),
     **dict.fromkeys(("sentinel", "special-value", "special-number", "enum", "flags", "fields"), Carry.WHOLE),
     **dict.fromkeys(("boolean", "string", "padding", "version", "bytes", "date"), Carry.WHOLE),
-    **dict.fromkeys(("range", "range-union", "functions", "limits"), Carry.WHOLE),
+    **dict.fromkeys(("range", "range-union", "step", "functions", "limits"), Carry.WHOLE),
     "write": Carry.PARTLY,
 }
 

@@ -21,7 +21,7 @@ options = DEVICE_OPTIONS
 carries: Carries = RESOLVED | {
     **dict.fromkeys(("scale", "offset", "enum", "flags", "write-only", "name"), Carry.WHOLE),
     **dict.fromkeys(("limits", "functions"), Carry.WHOLE),
-    **dict.fromkeys(("unit", "range", "special-value", "boolean", "version", "write"), Carry.PARTLY),
+    **dict.fromkeys(("unit", "range", "step", "special-value", "boolean", "version", "write"), Carry.PARTLY),
 }
 
 TARGET = Target(name=name, carries=carries, fits=fits)

@@ -38,7 +38,7 @@ CONTEXT = [
 carries: Carries = RESOLVED | {
     **dict.fromkeys(("enum", "string", "write-only", "name", "description", "functions"), Carry.WHOLE),
     **dict.fromkeys(("scale", "offset", "unit", "range", "sentinel", "special-value", "boolean"), Carry.PARTLY),
-    **dict.fromkeys(("flags", "fields", "version", "special-number", "write"), Carry.PARTLY),
+    **dict.fromkeys(("flags", "fields", "version", "special-number", "write", "step"), Carry.PARTLY),
 }
 
 
