@@ -3,8 +3,11 @@
 from collections.abc import Callable
 from fractions import Fraction
 
+import pytest
+
+from regscribe import plugins
 from regscribe.importers.solarman import likeness
-from regscribe.plugins import Likeness
+from regscribe.plugins import Likeness, OptionError
 
 from .conftest import Import
 
@@ -26,6 +29,12 @@ parameters:
       - {name: Inverted, rule: 2, registers: [16], inverted: true, validation: {min: 0}}
       - {name: Computed, rule: 1, sensors: [{registers: [1]}, {registers: [2]}]}
       - {name: Modded, rule: 1, registers: [17], scale: [1, 10]}
+      - {name: Only one, rule: 1, registers: [[], [60]]}
+      - name: Alarm
+        rule: 1
+        registers: [61]
+        lookup: [{bit: 0, value: high, mode: "|"}, {key: 8, value: low, mode: "|"}]
+      - {name: Step, rule: 1, registers: [62], lookup: [{bit: 0, value: one}, {bit: 3, value: eight}]}
   - group: State
     items:
       - name: Mode
@@ -65,8 +74,26 @@ def test_the_offset_comes_before_the_scale(imported: Import) -> None:
     assert found.value("inverted", 5) == -5
 
 
-def test_a_scale_of_several_devices_leaves_a_raw_number(imported: Import) -> None:
+def test_a_list_of_scales_or_registers_is_of_variants_of_the_device(imported: Import) -> None:
     found = imported("solarman", DEFINITION)
+    assert found.value("modded", 7) == 7
+    assert "variant 0 of the device does not have it" in found.left_out["Only one"]
+    assert any("taken is 0 (--mod)" in one for one in found.draft.stated)
+    found = imported("solarman", DEFINITION, mod="3")  # the last of a shorter list
+    assert found.value("modded", 7) == 70
+    assert found.register("only_one").address == 60
+    with pytest.raises(OptionError, match="--mod x"):
+        plugins.read("solarman", DEFINITION.encode(), "source", {"mod": "x"})
+
+
+def test_entries_of_a_lookup_with_the_mode_are_bits_and_others_codes(imported: Import) -> None:
+    found = imported("solarman", DEFINITION)
+    assert found.bits("alarm") == {"high": (0, 0), "low": (3, 3)}
+    assert found.members("step") == {1: "one", 8: "eight"}
+
+
+def test_what_a_scale_is_not_leaves_a_raw_number(imported: Import) -> None:
+    found = imported("solarman", DEFINITION.replace("scale: [1, 10]", "scale: ten"))
     assert found.register("modded").kind == "raw"
     assert found.codes("Modded") == ["scale-unclear"]
 
@@ -99,7 +126,7 @@ def test_texts_dates_and_times(imported: Import) -> None:
 
 def test_what_is_left_out_is_told(imported: Import) -> None:
     found = imported("solarman", DEFINITION)
-    assert {*found.left_out} == {"Computed", "Odd"}
+    assert {*found.left_out} == {"Computed", "Odd", "Only one"}
     assert found.codes("Inverted") == ["validation-dropped"]
     assert found.draft.maker == "Acme"
 

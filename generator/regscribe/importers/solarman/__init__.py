@@ -4,6 +4,7 @@ Registers of a number stand lowest word first. The value is (number - offset) x 
 """
 
 from collections.abc import Mapping
+from dataclasses import replace
 from functools import partial
 
 from regscribe.draft import Draft
@@ -13,16 +14,20 @@ from regscribe.importers.shared.read_yaml import read_yaml
 from regscribe.importers.shared.tree import Node, TreeError
 from regscribe.importers.solarman.items import SHOWN, Usual, item
 from regscribe.model import Space
-from regscribe.plugins import Likeness, Option
+from regscribe.plugins import Likeness, Option, OptionError
 
 name = "solarman"
 summary = "an inverter definition of ha-solarman"
-options: tuple[Option, ...] = ()
+options = (Option("mod", "number of the variant of the device, as its entry in Home Assistant has it.", "0", "N"),)
 
 SPACES = {3: Space.HOLDING, 4: Space.INPUT, 1: Space.COIL, 2: Space.DISCRETE}
 """Spaces by the function that reads them."""
 
 USUAL_CODE = 3
+MOST_DIGITS = 4
+VARIANTS = r"\bscale\s*:\s*\[|\bregisters\s*:\s*\[\s*\["
+INHERITED = frozenset({"code", "update_interval"})
+"""Keys of a group that count for its items."""
 
 
 def likeness(data: bytes, name: str) -> Likeness:  # noqa: ARG001 - the contract of importers
@@ -32,21 +37,28 @@ def likeness(data: bytes, name: str) -> Likeness:  # noqa: ARG001 - the contract
 
 
 @reads
-def read(data: bytes, name: str, options: Mapping[str, str]) -> Draft:  # noqa: ARG001 - as above
-    """Return the registers of a definition."""
+def read(data: bytes, name: str, options: Mapping[str, str]) -> Draft:
+    """Return the registers of a definition. Raises OptionError for a --mod that is no number."""
+    mod = options.get("mod", "") or "0"
+    if not mod.isdecimal():
+        message = f"--mod {mod}: write the number of a variant, from 0"
+        raise OptionError(message)
     root, doubled = read_yaml(text_of(data))
     listed = root.get("parameters")
     if listed is None:
         raise TreeError(root.line, "there is no list `parameters`", "is this an inverter definition of ha-solarman?")
     found = Collecting(name, SHOWN)
     found.doubled(doubled)
-    usual = _usual(root)
+    usual = replace(_usual(root), mod=int(mod[:MOST_DIGITS]))
     for group in listed.each:
         items = group.get("items")
+        outer = {key: one for key, one in (group.members or {}).items() if key in INHERITED}
         for one in items.each if items else ():
             called = one.word("name") or "unnamed"
             make = partial(item, called, found.place(one), usual)
-            found.add(called, one, make, group=group.word("group") or "Registers")
+            found.add(called, one, make, group=group.word("group") or "Registers", outer=outer)
+    if has(data, VARIANTS):
+        found.stated.append(f"lists of scales and registers are of variants of the device: taken is {mod} (--mod)")
     found.stated.append("registers of a number are given lowest word first, as ha-solarman reads them")
     if has(data, r"^\s+divide\s*:"):
         found.stated.append("where an item has `divide`, ha-solarman drops what is behind the point; the map does not")

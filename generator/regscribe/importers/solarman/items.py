@@ -35,10 +35,11 @@ USUAL_DIVISOR = 100
 
 @dataclass(frozen=True, slots=True)
 class Usual:
-    """Where registers stand whose item does not say it."""
+    """Where registers stand whose item does not say it, and which variant of the device is meant."""
 
     space: Space
     stretches: tuple[tuple[int, int, Space], ...]
+    mod: int = 0
 
     def at(self, register: int) -> Space:
         """The space of a register."""
@@ -49,6 +50,7 @@ def item(name: str, place: Span, usual: Usual, keys: Keys) -> Point:
     """Return the register of an item. Raises LeftOutError."""
     if keys.has("sensors") or not keys.has("registers"):
         refuse("registers", "it has no registers of its own: it is computed, or only shown")
+    keys = _of_variant(keys, usual.mod)
     registers = _registers(keys)
     point = Point(
         name=name, place=place, at=registers[0], space=_space(keys, usual, registers[0]), unit=keys.text("uom")
@@ -64,6 +66,25 @@ def item(name: str, place: Span, usual: Usual, keys: Keys) -> Point:
     if registers != list(range(registers[0], registers[0] + len(registers))):
         refuse("registers", f"the registers {registers} of rule {rule} do not follow each other")
     return _other(point, len(registers), rule, keys)
+
+
+def _of_variant(keys: Keys, mod: int) -> Keys:
+    """The keys with those values of lists that are of a variant of the device; the last where a list is shorter."""
+    members = dict(keys.node.members or {})
+    for key in VARIED & members.keys():
+        listed = members[key].elements
+        nested = listed is not None and any(one.elements is not None for one in listed)
+        if listed and (key != "registers" or nested):
+            members[key] = listed[min(mod, len(listed) - 1)]
+    keys.node = replace(keys.node, members=members)
+    registers = members.get("registers")
+    if registers is not None and registers.elements == ():
+        refuse("registers", f"variant {mod} of the device does not have it (--mod)")
+    return keys
+
+
+VARIED = frozenset({"scale", "registers"})
+"""Keys that may list a value for each variant of a device."""
 
 
 def _registers(keys: Keys) -> list[int]:
@@ -178,13 +199,14 @@ def _labelled(point: Point, lookup: Node, keys: Keys, shift: int = 0) -> Point:
     codes: dict[int, str] = {}
     flags: dict[int, str] = {}
     for one in lookup.each:
-        label, bit = one.word("value"), one.word("bit")
-        listed = one.get("key")
-        if one.get("mode") or bit:
+        label, bit = one.word("value"), one.get("bit")
+        listed = one.get("key") or bit
+        if one.word("mode") == "|":
             flags |= _flag(bit, listed, label)
             continue
         for code in listed.each if listed else ():
             stored = whole(code.text)
+            stored = 1 << stored if bit is listed and stored is not None and 0 <= stored < MOST_BITS else stored
             number = None if stored is None or stored % (1 << shift) else stored >> shift
             if number is None:
                 every = code.text == "default"
@@ -202,10 +224,13 @@ def _labelled(point: Point, lookup: Node, keys: Keys, shift: int = 0) -> Point:
     return replace(point, more={**point.more, **({"enum": labelled(codes)} if codes else {})})
 
 
-def _flag(bit: str, listed: Node | None, label: str) -> dict[int, str]:
+MOST_BITS = 64
+
+
+def _flag(bit: Node | None, listed: Node | None, label: str) -> dict[int, str]:
     """The bit that an entry of a lookup means, by its number or by its weight."""
-    number = whole(bit)
-    if number is None and listed is not None:
+    number = whole(bit.text) if bit and bit.is_scalar else None
+    if number is None and bit is None and listed is not None:
         found = bits_of(whole(listed.each[0].text) or 0) if listed.each else None
         number = found[0] if found and found[0] == found[1] else None
     return {} if number is None else {number: label}
