@@ -508,7 +508,7 @@ def test_no_table_raises_and_each_register_has_a_reason_or_keys(heads: list[str]
     ),
     st.lists(st.lists(CELLS, min_size=3, max_size=9), min_size=1, max_size=6),
 )
-def test_what_is_made_of_any_table_passescheck(heads: list[str], rows: list[list[str]]) -> None:
+def test_what_is_made_of_any_table_passes_check(heads: list[str], rows: list[list[str]]) -> None:
     lines = [heads, *([str(at), *row] for at, row in enumerate(rows))]
     quoted = [['"' + cell.replace('"', '""') + '"' for cell in line] for line in lines]
     found = draft("\n".join(map(",".join, quoted)).encode(errors="replace"), type="uint16")
