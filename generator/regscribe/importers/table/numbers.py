@@ -31,7 +31,7 @@ def add_type(making: Making, whole: Whole, index: int, choices: Choices, *, code
     Raises LeftOutError where the type is not known.
     """
     if making.space.is_bits:
-        _type_of_bit(making)
+        _type_of_bit(making, whole.types[index])
         return
     found = whole.types[index]
     if isinstance(found, Unclear):
@@ -47,9 +47,12 @@ def add_type(making: Making, whole: Whole, index: int, choices: Choices, *, code
     _add_orders(making, whole, choices)
 
 
-def _type_of_bit(making: Making) -> None:
+def _type_of_bit(making: Making, found: TypeCell | Unclear | None) -> None:
+    """Say of a bit what its type is, which is lost where it is that of a word."""
     text = making.item["type"]
-    if text and not any(word in text.lower() for word in ("bit", "bool", "coil", "discrete", "switch", "bin")):
+    if isinstance(found, Unclear) or (found is not None and found.type not in {None, WireType.BIT}):
+        making.lose("type-of-bit", f"type `{text[:40]}` is not taken over: a {making.space} is one bit")
+    elif text and not any(word in text.lower() for word in ("bit", "bool", "coil", "discrete", "switch", "bin")):
         making.tell("type-of-bit", f"type `{text[:40]}`: a {making.space} is one bit")
 
 

@@ -19,6 +19,7 @@ from regscribe.importers.table.cells.spaces import SpaceCell, parse_spaces
 from regscribe.importers.table.cells.types import TypeCell, parse_type
 from regscribe.importers.table.choices import Choices
 from regscribe.importers.table.columns import Column
+from regscribe.importers.table.contents import DIALECT as ANY_DIALECT
 from regscribe.importers.table.headings import AT
 from regscribe.importers.table.layout import Item
 from regscribe.importers.table.titles import space_of_title
@@ -157,7 +158,14 @@ def _addresses(
         if column.role == AT
     ]
     spaces = [hint if isinstance(hint, Space) else choices.space for hint in hints]
-    return parse_addresses(texts, spaces=spaces, base=choices.base)
+    words = [_takes_words(item["type"]) for item in items]
+    return parse_addresses(texts, spaces=spaces, words=words, base=choices.base)
+
+
+def _takes_words(text: str) -> bool:
+    """Whether a cell is a type of whole words, whatever its width is in the dialect of the table."""
+    found = parse_type(text, ANY_DIALECT)
+    return isinstance(found, TypeCell) and found.type is not None and found.type is not WireType.BIT
 
 
 def _hint(cell: SpaceCell | Unclear | None, item: Item, page: str) -> Space | Unclear | None:

@@ -515,3 +515,27 @@ def test_what_is_made_of_any_table_passes_check(heads: list[str], rows: list[lis
     settled, written, _ = settle(found, head_of("acme/pump"), check)
     if any(entry.keys is not None for entry in settled.entries):
         assert [one for one in check(written.text) if one.severity is Severity.ERROR] == [], written.text
+
+
+def test_five_digits_that_begin_with_1_are_plain_addresses_where_types_are_of_words() -> None:
+    found = draft("Register,Name,Type\n10400,Power,int32sw\n10402,State,uint16be\n")
+    assert [(one["at"], one.get("space", "holding")) for one in keys(found) if one] == [
+        (10400, "holding"),
+        (10402, "holding"),
+    ]
+
+
+def test_a_row_of_a_word_with_the_address_of_a_bit_is_left_out_and_the_others_are_read() -> None:
+    text = "Register,Name,Type\n40001,Flow,uint16\n40002,Speed,uint16\n10003,Odd,uint16\n10004,Door,bool\n"
+    found = draft(text)
+    assert [one and one["name"] for one in keys(found)] == ["Flow", "Speed", None, "Door"]
+    (remark,) = found.entries[2].remarks
+    assert remark.code == "address-unclear"
+    assert "`10003` is an address of a discrete, which is one bit, and its type takes whole words" in remark.message
+
+
+def test_a_type_of_words_at_a_bit_that_a_column_says_is_told_as_lost() -> None:
+    found = draft("Register,Name,Area,Type\n1,Door,Coil,uint16\n2,Lamp,Coil,bool\n")
+    door, lamp = found.entries
+    assert [remark.code for remark in door.remarks] == ["type-of-bit"]
+    assert (door.outcome, lamp.outcome) == (Outcome.WITH_LOSS, Outcome.WHOLE)

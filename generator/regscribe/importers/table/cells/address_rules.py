@@ -16,13 +16,17 @@ _FUNCTION = re.compile(r"func|\bfc\b|funktion|fonction", re.IGNORECASE)
 
 
 def decide(
-    read: Sequence[Printed | Unclear | None], header: str, spaces: Sequence[Space | None], said: set[str]
+    read: Sequence[Printed | Unclear | None],
+    header: str,
+    spaces: Sequence[Space | None],
+    said: set[str],
+    words: Sequence[bool],
 ) -> Rule:
-    """The rule of a column, by what its cells, its heading, the spaces beside it and the user say."""
+    """The rule of a column, by what its cells, its heading, the spaces and types beside it and the user say."""
     known = [one for one in read if isinstance(one, Printed)]
     digits, why_digits, doubt = _digits(known, header, said)
     by_function, why_prefix = _prefixes(known, header, said)
-    if digits == 10 and (rule := modicon_rule(known, read, header, spaces, said)):  # noqa: PLR2004 - decimal
+    if digits == 10 and (rule := modicon_rule(known, read, header, spaces, said, words)):  # noqa: PLR2004 - decimal
         return rule
     numbers = [one.number(digits) for one in known if one.form != "letters" or digits == 16]  # noqa: PLR2004 - hex
     base, why_base, assumed = counted_from(numbers, header, said)

@@ -23,19 +23,22 @@ def base_words() -> tuple[str, ...]:
     return ("0", "1", "modicon", "hex", "decimal")
 
 
-def parse_addresses(columns: Sequence[Column], *, spaces: Sequence[Space | None] = (), base: str = "") -> AddressColumn:
+def parse_addresses(
+    columns: Sequence[Column], *, spaces: Sequence[Space | None] = (), words: Sequence[bool] = (), base: str = ""
+) -> AddressColumn:
     """Read one column of addresses, or several of the same registers (hexadecimal and decimal, or one apart).
 
-    `spaces` are those that other columns say, row by row. `base` is what the user says: `0` or `1` (from what the
-    numbers count), `modicon` (40001 is the first holding register), `hex` or `decimal`, several joined by commas.
+    `spaces` are those that other columns say, row by row, and `words` whether its type takes whole words, which no bit
+    does. `base` is what the user says: `0` or `1` (from what the numbers count), `modicon` (40001 is the first
+    holding register), `hex` or `decimal`, several joined by commas.
     """
     said = {word.strip().casefold() for word in base.split(",")}
-    first, *others = [_one_column(column, spaces, said) for column in columns]
+    first, *others = [_one_column(column, spaces, words, said) for column in columns]
     for other in others:
         first = together(first, other)
     rule = first.rule
-    words = "" if others else _words(rule)
-    return AddressColumn(rule.notation, rule.evidence, first.cells, assumed=rule.assumed, words=words)
+    option = "" if others else _words(rule)
+    return AddressColumn(rule.notation, rule.evidence, first.cells, assumed=rule.assumed, words=option)
 
 
 def _words(rule: Rule) -> str:
@@ -44,7 +47,7 @@ def _words(rule: Rule) -> str:
     return "modicon" if rule.regions else f"{rule.base},hex" if rule.digits == 16 else str(rule.base)  # noqa: PLR2004 - hex
 
 
-def _one_column(column: Column, spaces: Sequence[Space | None], said: set[str]) -> Reading:
+def _one_column(column: Column, spaces: Sequence[Space | None], words: Sequence[bool], said: set[str]) -> Reading:
     read: list[Read] = [printed(text) if text.strip(" -\t\n") else None for text in column.texts]
     if any(isinstance(one, Printed) and one.region is not None for one in read):
         read = [one.as_region if isinstance(one, Printed) else one for one in read]
@@ -54,11 +57,12 @@ def _one_column(column: Column, spaces: Sequence[Space | None], said: set[str]) 
     bits = from_0([one.bits if isinstance(one, Printed) else None for one in read])
     read = [_with_bits(one, each) for one, each in zip(read, bits.cells, strict=True)]
     beside = [*spaces, *[None] * (len(read) - len(spaces))]
-    rule = decide(read, column.header, beside, said)
+    typed = [*words, *[False] * (len(read) - len(words))]
+    rule = decide(read, column.header, beside, said, typed)
     rule = replace(rule, evidence="; ".join(filter(None, (rule.evidence, bits.evidence))))
     cells = tuple(
-        _address(one, rule, space, text) if isinstance(one, Printed) else one
-        for one, space, text in zip(read, beside, column.texts, strict=False)
+        _address(one, rule, space, text, of_words=of_words) if isinstance(one, Printed) else one
+        for one, space, text, of_words in zip(read, beside, column.texts, typed, strict=False)
     )
     numbers = tuple(one.number(rule.digits) if isinstance(one, Printed) and rule.reads(one) else None for one in read)
     return Reading(column.header, column.texts, rule, cells, numbers)
@@ -70,7 +74,7 @@ def _with_bits(one: Read, bits: Bits | Unclear | None) -> Read:
     return replace(one, bits=bits)
 
 
-def _address(one: Printed, rule: Rule, beside: Space | None, text: str) -> Address | Unclear:
+def _address(one: Printed, rule: Rule, beside: Space | None, text: str, *, of_words: bool) -> Address | Unclear:
     """The address of one cell by the rule of its column."""
     if not rule.reads(one):
         return Unclear(f"{quoted(text)} has letters, and the other addresses are decimal")
@@ -81,6 +85,8 @@ def _address(one: Printed, rule: Rule, beside: Space | None, text: str) -> Addre
         space, number = REGIONS[of[0]], of[1]
     if space and beside and space is not beside:
         return Unclear(f"{quoted(text)} is an address of {space} registers, and another column says {beside}")
+    if of_words and beside is None and space is not None and space.is_bits:
+        return Unclear(f"{quoted(text)} is an address of a {space}, which is one bit, and its type takes whole words")
     at = number - rule.base_of(one)
     if not 0 <= at <= LAST:
         return Unclear(f"{quoted(text)} is {at} as a wire address, which goes from 0 to {LAST}")

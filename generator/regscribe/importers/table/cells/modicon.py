@@ -15,8 +15,12 @@ def modicon_rule(
     header: str,
     spaces: Sequence[Space | None],
     said: set[str],
+    words: Sequence[bool],
 ) -> Rule | None:
-    """The rule where numbers begin with the digit of a space; None where they do not."""
+    """The rule where numbers begin with the digit of a space; None where they do not.
+
+    `words` are the rows whose type takes whole words: those have no address of a bit.
+    """
     plain = [one for one in known if is_plain(one)]
     long = [one for one in plain if len(one.digits) == 6 and has_region(one)]  # noqa: PLR2004 - six digits
     with_region = [one for one in plain if has_region(one)]
@@ -29,14 +33,19 @@ def modicon_rule(
     if others:
         return _mixed(with_region, others)
     contrary = sum(
-        isinstance(one, Printed) and space is not None and has_region(one) and REGIONS[int(one.digits[0])] is not space
-        for one, space in zip(read, spaces, strict=False)
+        isinstance(one, Printed) and has_region(one) and _contradicted(REGIONS[int(one.digits[0])], space, of_words)
+        for one, space, of_words in zip(read, spaces, words, strict=False)
     )
     if contrary * 2 > len(with_region):
         return None
     digits = "".join(sorted({one.digits[0] for one in with_region}))
     evidence = f"all numbers have five digits and begin with that of a space ({', '.join(digits)})"
     return _regions(f"{evidence}, so 40001 is the wire address 0: --base 0 if they are sent as printed", (), 5)
+
+
+def _contradicted(digit: Space, beside: Space | None, of_words: bool) -> bool:  # noqa: FBT001 - a fact of the row
+    """Whether the space or the type of a row says that the leading digit of its number is none of a space."""
+    return (of_words and digit.is_bits) if beside is None else beside is not digit
 
 
 def _regions(evidence: str, others: Sequence[Printed], length: int) -> Rule:
