@@ -43,7 +43,7 @@ def read(data: bytes, name: str, options: Mapping[str, str]) -> Draft:
         grids, stated = grids_of(data, name, chosen)
         draft = draft_of(grids, chosen, name)
     except TableError as error:
-        return refused(name, str(error), line=error.line, rule=RULE)
+        return refused(name, str(error).removeprefix(f"{name}: "), line=error.line, rule=RULE)
     return replace(draft, stated=(*stated, *draft.stated))
 
 

@@ -2,6 +2,7 @@
 
 import io
 import logging
+from collections import Counter
 from collections.abc import Iterator, Sequence
 from contextlib import contextmanager
 from dataclasses import dataclass
@@ -32,10 +33,12 @@ class Found:
         return max(len(row.cells) for row in self.rows)
 
 
-def read(data: bytes, name: str, pages: Sequence[int], area: Area | None) -> tuple[list[Grid], list[str]]:
-    """Read the tables of the named pages, or of all.
+def read(
+    data: bytes, name: str, pages: Sequence[int], area: Area | None, *, headless: bool = False
+) -> tuple[list[Grid], list[str]]:
+    """Read the tables of the named pages, or of all; `headless`: the list has no row that names its columns.
 
-    Raises TableError for what is no PDF, is protected, or has no tables, and where the number of columns changes.
+    Raises TableError for what is no PDF, is protected, or has no tables, and for two lists of different columns.
     """
     with _readable(name):
         pdfplumber = _library()
@@ -44,7 +47,7 @@ def read(data: bytes, name: str, pages: Sequence[int], area: Area | None) -> tup
             found = [table for number in numbers for table in _tables(document.pages[number - 1], number, area)]
     if not found:
         raise _none(name, numbers, area)
-    return _joined(found, name)
+    return _joined(found, name, headless=headless)
 
 
 def _library() -> Any:  # noqa: ANN401 - a module without types
@@ -97,22 +100,62 @@ def _tables(page: "Page", number: int, area: Area | None) -> Iterator[Found]:
     page.close()
 
 
-def _joined(found: Sequence[Found], name: str) -> tuple[list[Grid], list[str]]:
-    """One grid of the first table with a header and of all that follow it."""
-    grids = [grid_of(name, table.rows) for table in found]
-    start = next((index for index, grid in enumerate(grids) if find(grid) is not None), 0)
-    first = found[start]
-    for table in found[start + 1 :]:
-        if table.width != first.width:
+def _joined(found: Sequence[Found], name: str, *, headless: bool) -> tuple[list[Grid], list[str]]:
+    """One grid of the first table with a header and of those like it that follow; others are told by page.
+
+    Without headers (`headless`, or because none is found) those as wide as most rows are read.
+    """
+    headed = [] if headless else [table for table in found if find(grid_of(name, table.rows)) is not None]
+    start = found.index(headed[0]) if headed else 0
+    width = headed[0].width if headed else _usual_width(found)
+    _check_one_list(headed)
+    taken = [table for table in found[start:] if table.width == width]
+    pages = _pages(taken)
+    stated = [f"the tables of pages {_listed(pages)} are read as one"] if len(pages) > 1 else []
+    stated += [f"a table on page {table.page} has no header and is passed over" for table in found[:start]]
+    stated += list(_other_widths(found[start:], width))
+    return [grid_of(name, (row for table in taken for row in table.rows))], stated
+
+
+def _usual_width(found: Sequence[Found]) -> int:
+    """The columns that most rows have."""
+    rows = Counter({table.width: 0 for table in found})
+    for table in found:
+        rows[table.width] += len(table.rows)
+    return rows.most_common(1)[0][0]
+
+
+def _check_one_list(headed: Sequence[Found]) -> None:
+    """Raise TableError where two lists of registers have different columns."""
+    for table in headed:
+        if table.width != headed[0].width:
             message = (
-                f"{name}: the table on page {table.page} has {table.width} columns, and that on page {first.page} has "
-                f"{first.width}: choose the pages of one table with --pages, or a part of each with --area"
+                f"the list of registers on page {table.page} has {table.width} columns, and that on page "
+                f"{headed[0].page} has {headed[0].width}: choose the pages of one list with --pages, or a part of each "
+                "with --area"
             )
             raise TableError(message, table.page)
-    pages = list(dict.fromkeys(table.page for table in found[start:]))
-    stated = [f"{name}: the tables of pages {', '.join(map(str, pages))} are read as one"] if len(pages) > 1 else []
-    stated += [f"{name}: a table on page {table.page} has no header and is passed over" for table in found[:start]]
-    return [grid_of(name, (row for table in found[start:] for row in table.rows))], stated
+
+
+def _other_widths(found: Sequence[Found], width: int) -> Iterator[str]:
+    """What is said of the tables that have other columns than the list, those of one width together."""
+    for other in sorted({table.width for table in found} - {width}):
+        tables = [table for table in found if table.width == other]
+        pages = _pages(tables)
+        words = "page" if len(pages) == 1 else "pages"
+        yield (
+            f"{sum(len(table.rows) for table in tables)} rows of tables on {words} {_listed(pages)} have {other} "
+            f"columns, not the {width} of the list, and are passed over: if they are registers, read them "
+            f"by themselves with --pages {','.join(map(str, pages))} --header none --columns at=1,name=2"
+        )
+
+
+def _pages(tables: Sequence[Found]) -> list[int]:
+    return list(dict.fromkeys(table.page for table in tables))
+
+
+def _listed(pages: Sequence[int]) -> str:
+    return ", ".join(map(str, pages))
 
 
 def _none(name: str, pages: Sequence[int], area: Area | None) -> TableError:

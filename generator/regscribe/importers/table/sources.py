@@ -31,7 +31,7 @@ def grids_of(data: bytes, name: str, choices: Choices) -> tuple[list[Grid], Sequ
     elif is_pdf(data):
         from regscribe.importers.table.pdf_tables import read as read_pdf  # noqa: PLC0415 - an extra
 
-        grids, stated = read_pdf(data, name, choices.pages, choices.area)
+        grids, stated = read_pdf(data, name, choices.pages, choices.area, headless=choices.header == "none")
         stated = [*stated, *(text for grid in grids for text in grid.stated)]
     else:
         grids = [read_text(data, name, encoding=choices.encoding, delimiter=choices.delimiter, lines=lines)]

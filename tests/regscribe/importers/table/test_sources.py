@@ -14,6 +14,7 @@ from regscribe.importers import table
 from regscribe.importers.table import archive, grid, sheet_structure, sources, workbooks
 from regscribe.importers.table.choices import choices
 from regscribe.importers.table.grid import Grid, TableError
+from regscribe.importers.table.pdf_tables import read as read_pdf
 from regscribe.plugins import Likeness
 
 HEAD = "Address,Name,Type,Access\n"
@@ -295,9 +296,33 @@ def test_pages_and_an_area_of_a_pdf_can_be_chosen(pdf: Callable[..., bytes]) -> 
     assert "no table with ruled lines in that area" in refusal(data, "list.pdf", area="0,600,595,800")
 
 
-def test_a_change_of_the_number_of_columns_between_pages_is_refused(pdf: Callable[..., bytes]) -> None:
-    data = pdf([["Register", "Name"], ["40001", "Speed"]], [["40002", "Flow", "l/h"]])
-    assert "the table on page 2 has 3 columns, and that on page 1 has 2" in refusal(data, "list.pdf")
+def test_tables_of_a_pdf_that_are_no_list_of_registers_are_passed_over_and_told_by_page(
+    pdf: Callable[..., bytes],
+) -> None:
+    pages = (
+        [["Start", "Code", "Check"], ["T1", "1 byte", "2 bytes"]],
+        [["Register", "Name"], ["40001", "Speed"]],
+        [["Pin", "Wire", "Colour"], ["1", "A", "red"]],
+        [["40002", "Flow"]],
+    )
+    (found,), stated = read_pdf(pdf(*pages), "list.pdf", (), None)
+    assert [row.cells for row in found.rows] == [("Register", "Name"), ("40001", "Speed"), ("40002", "Flow")]
+    joined, before, other = stated
+    assert joined == "the tables of pages 2, 4 are read as one"
+    assert before == "a table on page 1 has no header and is passed over"
+    assert other.startswith("2 rows of tables on page 3 have 3 columns, not the 2 of the list, and are passed over")
+    assert "--pages 3 --header none" in other
+
+
+def test_without_headers_the_tables_as_wide_as_most_rows_are_read(pdf: Callable[..., bytes]) -> None:
+    pages = ([["a", "b", "c"]], [["1", "Speed"], ["2", "Flow"]], [["3", "Heat"]])
+    (found,) = grids(pdf(*pages), "list.pdf", header="none")
+    assert [row.cells[0] for row in found.rows] == ["1", "2", "3"]
+
+
+def test_two_lists_of_registers_with_other_columns_are_refused(pdf: Callable[..., bytes]) -> None:
+    data = pdf([["Register", "Name"], ["40001", "Speed"]], [["Register", "Name", "Unit"], ["40002", "Flow", "l/h"]])
+    assert "the list of registers on page 2 has 3 columns, and that on page 1 has 2" in refusal(data, "list.pdf")
 
 
 def test_a_pdf_without_tables_a_broken_one_and_a_protected_one_are_refused(pdf: Callable[..., bytes]) -> None:

@@ -539,3 +539,17 @@ def test_a_type_of_words_at_a_bit_that_a_column_says_is_told_as_lost() -> None:
     door, lamp = found.entries
     assert [remark.code for remark in door.remarks] == ["type-of-bit"]
     assert (door.outcome, lamp.outcome) == (Outcome.WITH_LOSS, Outcome.WHOLE)
+
+
+def test_a_list_without_headings_is_read_by_the_numbers_of_its_columns() -> None:
+    found = draft("Word 11,R/W,Flow,U16\nWord 12,R,Speed,U16\n", header="none", columns="at=1,access=2,name=3,type=4")
+    assert [(one["at"], one["access"], one["name"]) for one in keys(found) if one] == [
+        (11, "rw", "Flow"),
+        (12, "r", "Speed"),
+    ]
+
+
+def test_an_error_names_its_source_once() -> None:
+    (error,) = draft("a,b\nc,d\n").findings
+    assert error.span.file == "list.csv"
+    assert "list.csv" not in error.message

@@ -49,7 +49,7 @@ _SPACES = (
     (Space.INPUT, r"ir|input registers?|%iw"),
     (Space.COIL, r"co|coils?|%m"),
     (Space.DISCRETE, r"di|discrete(?: inputs?)?|%ix?"),
-    (None, r"r|reg\.?|register|addr\.?|address|adr\.?|no\.?|#|@"),
+    (None, r"r|reg\.?|register|word|addr\.?|address|adr\.?|no\.?|#|@"),
 )
 """Prefixes by the space that they say (None: none)."""
 
