@@ -60,8 +60,12 @@ class Coded(NamedTuple):
 
 def member_words(member: Member) -> str:
     """A code as `3 HEATING "Heating"`, with its condition."""
+    return f"{member.code} {_name_words(member)}"
+
+
+def _name_words(member: Member) -> str:
     when = "" if member.when.always else f" while {condition_words(member.when)}"
-    return f'{member.code} {member.id} "{one_line(member.label)}"{when}'
+    return f'{member.id} "{one_line(member.label)}"{when}'
 
 
 def enum_differences(
@@ -122,7 +126,7 @@ def _renamed(mine: Member, theirs: Member, old: Enum, new: Enum) -> Iterator[Dif
         return
     moved = mine.id in {one.id for one in new.members} or theirs.id in {one.id for one in old.members}
     rule, effects = (CODE_MEANING, Effects(B, B)) if moved else (CODE_RENAMED, Effects(N, B))
-    yield Difference(rule, f"name of code {mine.code}", effects, member_words(mine), member_words(theirs))
+    yield Difference(rule, f"name of code {mine.code}", effects, _name_words(mine), _name_words(theirs))
 
 
 def special_differences(old: Register, new: Register) -> Iterator[Difference]:

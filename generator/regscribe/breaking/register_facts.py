@@ -1,6 +1,7 @@
 """The facts of a register: each field is in FACTS, or in ELSEWHERE with the module that compares it."""
 
 from collections.abc import Callable
+from fractions import Fraction
 from typing import TypeVar
 
 from regscribe.breaking.change import TEXT_ONLY, Effects
@@ -30,7 +31,7 @@ from regscribe.emit.words import (
     map_cases,
     range_words,
 )
-from regscribe.model import Cases, Range, Register, Rule
+from regscribe.model import Case, Cases, Conversion, Range, Register, Rule
 
 T = TypeVar("T")
 
@@ -39,6 +40,19 @@ def _access(old: Register, new: Register) -> tuple[Rule, Effects]:
     """Reading and writing apart: what is gone breaks, what came is new."""
     lost = (old.access.readable and not new.access.readable) or (old.access.writable and not new.access.writable)
     return (ACCESS_NARROWED, Effects(B, B)) if lost else (ACCESS_WIDENED, Effects(C, C))
+
+
+def _scale(old: Register, new: Register) -> tuple[Rule, Effects]:
+    """Another scale breaks; steps alone refuse writes where they are coarser, and show values between where finer."""
+    if [_unstepped(case) for case in old.scale] != [_unstepped(case) for case in new.scale]:
+        return SCALE, Effects(N, B)
+    pairs = [(one.then.step, other.then.step) for one, other in zip(old.scale, new.scale, strict=True)]
+    finer = all(not after or (before and Fraction(before) % Fraction(after) == 0) for before, after in pairs)
+    return SCALE, Effects(N, H if finer or not old.access.writable else B)
+
+
+def _unstepped(case: Case[Conversion]) -> Case[Conversion]:
+    return case._replace(then=case.then._replace(step=None))
 
 
 def _existence(old: Register, new: Register) -> tuple[Rule, Effects]:
@@ -91,7 +105,7 @@ def _danger(register: Register) -> str:
 FACTS: tuple[Fact[Register], ...] = (
     Fact(("kind",), "kind of value", judged(KIND, N, B)),
     Fact(("access",), "access", _access, lambda one: ACCESS[one.access]),
-    Fact(("scale",), "scale", judged(SCALE, N, B), lambda one: _cases(one.scale, conversion_words)),
+    Fact(("scale",), "scale", _scale, lambda one: _cases(one.scale, conversion_words)),
     Fact(("special_scale",), "scale of special values", judged(SCALE, N, B)),
     Fact(("unit",), "unit", _unit, lambda one: _cases(one.unit, lambda unit: unit or "no unit")),
     Fact(("range",), "range", write_limits, _range("range")),

@@ -58,8 +58,11 @@ def _danger(old: Command, new: Command) -> tuple[Rule, Effects]:
 
 
 def _steps(old: Command, new: Command) -> tuple[Rule, Effects]:
-    """Other requests break those who send the old ones; another function for the same words does not."""
-    one, other = ([step._replace(function=step.space.read_function) for step in each.steps] for each in (old, new))
+    """Other requests break those who send the old ones; another function for the same words, or a wait, does not."""
+    one, other = (
+        [step._replace(function=step.space.read_function, wait=0) for step in each.steps if step.words or not step.wait]
+        for each in (old, new)
+    )
     return COMMAND, Effects(H if one == other else B, N)
 
 

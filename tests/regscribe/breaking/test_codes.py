@@ -56,6 +56,12 @@ def test_a_code_that_takes_over_a_name_has_another_meaning(bench: Any) -> None:
     ]
 
 
+def test_a_code_with_another_name_is_told_with_its_number_once(bench: Any) -> None:
+    found = bench.compared(with_line("enum: {0: low, 1: full}"), with_line("enum: {0: low, 1: top}")).changes
+    (change,) = (one for one in found if one.rule.id == "RS0719")
+    assert (change.what, change.before, change.after) == ("name of code 1", 'FULL "full"', 'TOP "top"')
+
+
 @pytest.mark.parametrize(
     ("old", "new", "rule", "effects"),
     [
