@@ -103,3 +103,15 @@ def test_a_wrong_option_is_wrong_usage(cli: Callable[..., Any]) -> None:
         True,
         False,
     )
+
+
+def test_many_rows_of_which_the_same_is_said_are_told_together_and_apart_in_json(cli: Callable[..., Any]) -> None:
+    rows = "".join(f"{at};Point {at};odd{at};\n" for at in range(1, 9))
+    Path("list.csv").write_text(f"Register;Name;Type;Access\n{rows}9;Speed;U16;R\n", encoding="utf-8")
+    told = cli("import", "list.csv", "-o", "map.yaml").err.splitlines()
+    assert [line for line in told if "is no type" in line] == [
+        "line 2: Point 1: left out: type-unclear: `odd1` is no type"
+    ]
+    assert "  and 7 rows more of which the same is said: line 3, line 4, line 5, .. line 9" in told
+    cli("import", "list.csv", "-o", "other.yaml", "--report", "json", "--report-to", "report.json")
+    assert len(json.loads(Path("report.json").read_text(encoding="utf-8"))["rows"]) == 9

@@ -1,7 +1,8 @@
 """What became of each row of an import: as lines for people, as JSON, and as SARIF for hosts that show such results."""
 
+import re
 from collections import Counter
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import asdict
 
 from regscribe.cli.shared.diagnostic_text import count
@@ -15,6 +16,15 @@ FORMS = ("text", "json", "sarif")
 HEADS = ("column", "heading", "understood as", "because")
 MOST_HEADING = 40
 """Most characters of a heading that the table of columns shows."""
+
+MOST_ALIKE = 5
+"""Most rows of which the same is said that are told one by one."""
+
+SHOWN_ALIKE = 3
+"""Of more of them, those that are named besides the first and the last."""
+
+OWN = re.compile(r"`[^`]*`|[0-9]+")
+"""What a message has of its row: a quoted text, or a number."""
 
 
 def report_of(
@@ -56,14 +66,39 @@ def _lines(draft: Draft, found: Sequence[Diagnostic], notes: Sequence[Note]) -> 
     yield from draft.stated
     for one in found:
         yield f"{one.severity}: {one.span}: {one.message}{f' ({one.help})' if one.help else ''}"
-    for entry in draft.each:
-        if entry.remarks or entry.outcome is not Outcome.WHOLE:
-            said = "; ".join(f"{remark.code}: {remark.message}" for remark in entry.remarks)
-            yield f"{entry.where or entry.place}: {entry.name}: {entry.outcome}: {said or 'no reason is given'}"
+    yield from _rows(draft.each)
     yield from (f"{note.place}: {note.name}: {note.change}: {note.message}" for note in notes)
     counts = Counter(entry.outcome for entry in draft.each)
     every = ", ".join(f"{counts[outcome]} {outcome}" for outcome in Outcome)
     yield f"{count(len(draft.each), 'row')}: {every}"
+
+
+def _rows(entries: Iterable[Entry]) -> Iterator[str]:
+    """The rows of which something is said; many of which the same is said are told at the first of them."""
+    alike: dict[tuple[str, ...], list[Entry]] = {}
+    for entry in entries:
+        if entry.remarks or entry.outcome is not Outcome.WHOLE:
+            alike.setdefault(_pattern(entry), []).append(entry)
+    for same in alike.values():
+        told = same if len(same) <= MOST_ALIKE else same[:1]
+        for entry in told:
+            said = "; ".join(f"{remark.code}: {remark.message}" for remark in entry.remarks)
+            yield f"{_place(entry)}: {entry.name}: {entry.outcome}: {said or 'no reason is given'}"
+        if others := same[len(told) :]:
+            first = ", ".join(map(_place, others[:SHOWN_ALIKE]))
+            yield f"  and {len(others)} rows more of which the same is said: {first}, .. {_place(others[-1])}"
+    if any(len(same) > MOST_ALIKE for same in alike.values()):
+        yield "--report json tells each row by itself"
+
+
+def _place(entry: Entry) -> str:
+    return entry.where or str(entry.place)
+
+
+def _pattern(entry: Entry) -> tuple[str, ...]:
+    """What is said of a row, without the texts and numbers of its own."""
+    said = (f"{remark.code}: {OWN.sub('', remark.message)}" for remark in entry.remarks)
+    return entry.outcome, *said
 
 
 def _columns(recognised: Sequence[Recognised]) -> Iterator[str]:
