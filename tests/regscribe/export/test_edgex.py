@@ -73,6 +73,12 @@ def test_trap_2_a_scaled_number_is_cut_when_it_is_written_so_it_is_read_only(
     assert ("a", "write", "LOST") in lost(export("edgex", small(register)))
 
 
+def test_what_is_write_only_and_not_written_is_left_out(export: Export, small: Small, lost: Lost) -> None:
+    made = export("edgex", small("at: 0, name: A, access: w, decimals: 1", "at: 1, name: B"))
+    assert {("a", "write", "LOST"), ("a", "register", "LOST")} <= lost(made)
+    assert "name: a\n" not in str(made.texts[""])
+
+
 def test_scaled_types_without_a_raw_type_are_left_out(export: Export, small: Small) -> None:
     text = small(
         "at: 0, name: A, type: uint32, decimals: 1",

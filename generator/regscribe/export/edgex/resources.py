@@ -8,7 +8,7 @@ from typing import Any, NamedTuple
 from regscribe import files
 from regscribe.dialects.edgex import BOOL, RAW_TYPES, SWAPS, TABLES, TYPES
 from regscribe.emit.words import one_line
-from regscribe.export.device import Device, Point
+from regscribe.export.device import LEFT_OUT, Device, Point
 from regscribe.export.device.names import Names
 from regscribe.export.device.numbers import decimal, is_exact
 from regscribe.losses import Grade
@@ -32,6 +32,9 @@ class Resource(NamedTuple):
 def resources_of(device: Device, point: Point, names: Names) -> Iterator[Resource]:
     """Yield the resources of a point, and tell what they lose."""
     register, written = point.register, _is_written(device, point)
+    if not register.access.readable and not written:
+        device.lose(register, LEFT_OUT, Grade.LOST, "left out: it cannot be read, and is not written by EdgeX")
+        return
     _tell(device, point)
     if register.kind not in PATTERNS or written or not point.fields:
         apart = written and register.access.readable and point.write != point.address
