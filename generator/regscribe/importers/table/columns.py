@@ -14,6 +14,9 @@ ENOUGH = 0.8
 
 FEWEST = 3
 
+FEW_NAMES = 4
+"""A column that names less than one in so many of the rows that another column names, names none."""
+
 BY_USER = "as you said"
 
 
@@ -47,8 +50,9 @@ def recognise(grid: Grid, header: Header, asked: Asked) -> tuple[Column, ...]:
         if index not in roles and (role := meaning(heading)[0])
         for unsure in (meaning(heading)[1],)
     )
+    poor = _poor_names([index for _, index, role in claims if role == "name"], texts)
     for unsure, index, claimed in claims:
-        role, evidence = judge(claimed, texts[index], known=unsure < INSIDE)
+        role, evidence = poor.get(index) or judge(claimed, texts[index], known=unsure < INSIDE)
         if role in asked.none or (role in taken and (role not in SEVERAL or role in asked.fixed)):
             continue
         if role == AT and AT in taken and unsure >= INSIDE:
@@ -58,6 +62,16 @@ def recognise(grid: Grid, header: Header, asked: Asked) -> tuple[Column, ...]:
     _by_contents(roles, taken, texts)
     _name(roles, taken | asked.none)
     return tuple(_column(grid, header, index, roles) for index in range(len(texts)) if _has(header, texts, index))
+
+
+def _poor_names(claiming: Sequence[int], texts: Sequence[Sequence[str]]) -> dict[int, tuple[str, str]]:
+    """What the columns for names are that name few rows where another names far more: they say more of those rows."""
+    filled = {index: sum(map(bool, texts[index])) for index in claiming}
+    most = max(filled.values(), default=0)
+    why = "a heading for name, but only {} cells are filled, and another such column has {}"
+    return {
+        index: ("description", why.format(count, most)) for index, count in filled.items() if count * FEW_NAMES < most
+    }
 
 
 def _name(roles: dict[int, tuple[str, str]], taken: set[str]) -> None:

@@ -553,3 +553,12 @@ def test_an_error_names_its_source_once() -> None:
     (error,) = draft("a,b\nc,d\n").findings
     assert error.span.file == "list.csv"
     assert "list.csv" not in error.message
+
+
+def test_a_column_for_names_that_is_nearly_empty_leaves_the_names_to_another() -> None:
+    rows = "".join(f",uint16,{at},State {at},r\n" for at in range(2, 7))
+    found = draft(f"variable name,data type,register,documented name,access\nsoc,uint16,1,Charge,r\n{rows}")
+    assert roles(found)["documented name"] == "name"
+    assert [one and one["name"] for one in keys(found)][:2] == ["Charge", "State 2"]
+    assert keys(found)[0] == {"at": 1, "name": "Charge", "access": "r", "description": "soc"}
+    assert found.entries[0].outcome is Outcome.WHOLE
