@@ -137,22 +137,34 @@ def dump(data: Mapping[str, Any], *, remarks: Sequence[str] = ()) -> str:
 def save(path: Path, content: str | bytes) -> None:
     """Write a file (a text as UTF-8) beside its place, flush it to the disk and move it into its place.
 
-    Raises FileError where that fails (a full disk); a file that was there before is then as it was.
+    What a link leads to is written, and the link stays; a device or a pipe is written to and never replaced. Raises
+    FileError where that fails (a full disk); a file that was there before is then as it was.
     """
-    temporary = ""
+    octets = content.encode() if isinstance(content, str) else content
     try:
-        descriptor, temporary = tempfile.mkstemp(prefix=f".{path.name[:100]}.", dir=path.parent)
+        if path.exists() and not path.is_file():
+            path.write_bytes(octets)
+        else:
+            _replace(path.resolve(), octets)
+    except (OSError, RuntimeError) as error:  # a loop of links is a RuntimeError before Python 3.13
+        message = f"{path} cannot be written ({getattr(error, 'strerror', None) or error}); nothing of it was changed"
+        raise FileError(message) from None
+
+
+def _replace(path: Path, octets: bytes) -> None:
+    """Write a file beside its place and move it there. Raises OSError, and leaves nothing behind."""
+    descriptor, temporary = tempfile.mkstemp(prefix=f".{path.name[:100]}.", dir=path.parent)
+    try:
         with os.fdopen(descriptor, "wb") as file:
-            file.write(content.encode() if isinstance(content, str) else content)
+            file.write(octets)
             file.flush()
             os.fsync(file.fileno())
             os.fchmod(file.fileno(), _mode(path))
         Path(temporary).replace(path)
-    except OSError as error:
+    except OSError:
         with suppress(OSError):
             Path(temporary).unlink()
-        message = f"{path} cannot be written ({error.strerror or error}); nothing of it was changed"
-        raise FileError(message) from None
+        raise
 
 
 def _mode(path: Path) -> int:

@@ -164,6 +164,22 @@ def test_a_place_that_cannot_be_written_is_told_in_one_message(cli: Cli, argumen
 
 
 @pytest.mark.usefixtures("oven")
+def test_the_report_does_not_take_the_place_of_the_export(cli: Cli, folder: Path) -> None:
+    done = cli(*HEADER, "-o", "oven.h", "--report-to", "./oven.h")
+    assert (done.code, done.out) == (2, "")
+    assert "--out and --report-to are both oven.h" in done.err
+    assert not (folder / "oven.h").exists()
+
+
+@pytest.mark.usefixtures("oven")
+@pytest.mark.parametrize("host", ['h"', "a b", "h/x", "u@h"])
+def test_a_host_that_no_address_can_have_is_refused(cli: Cli, host: str) -> None:
+    done = cli("export", "acme/oven", "--format", "telegraf", "--at", f"{host}:502")
+    assert (done.code, done.out) == (2, "")
+    assert "write HOST:PORT" in done.err
+
+
+@pytest.mark.usefixtures("oven")
 def test_a_folder_is_no_file(cli: Cli, folder: Path) -> None:
     (folder / "there").mkdir()
     done = cli(*HEADER, "-o", "there")

@@ -55,6 +55,7 @@ def command(
     standard error, the worst first (docs/export.md). Plug-ins bring further formats (docs/plugins.md).
     """
     with raised_as(click.ClickException, PluginError, FileError), raised_as(click.UsageError, OptionError):
+        _refuse_one_place(out, report_to)
         options = own_options(plugins.exporter(form), parameters)
         register_maps = compiled_maps(find_maps(maps), nothing="nothing was exported")
         made = plugins.export(form, register_maps, options)
@@ -63,6 +64,17 @@ def command(
             _put(form, made, out)
         _tell_losses(report_of(made, register_maps, form=form, report=report, refused=refused), report_to)
     return int(refused)
+
+
+def _refuse_one_place(out: Path | None, report_to: Path | None) -> None:
+    if (
+        out is not None
+        and report_to is not None
+        and out.absolute() == report_to.absolute()
+        and not out.is_char_device()
+    ):
+        message = f"--out and --report-to are both {out}: the report would replace the export; name another file"
+        raise OptionError(message)
 
 
 def _tell_losses(text: str, path: Path | None) -> None:

@@ -242,7 +242,7 @@ def _place(register_map: RegisterMap, text: str, unit: int) -> Place:
     serial = register_map.protocol.serial
     if text.startswith("/") or re.fullmatch(r"COM[0-9]{1,3}", text):
         return Place(unit=unit, device=text, baud=serial.baud, format=serial.format)
-    found = re.fullmatch(r"([^:\s]+):([0-9]{1,5})", text)
+    found = re.fullmatch(r"([\w.-]+):([0-9]{1,5})", text)
     if not found or not 1 <= int(found[2]) <= LAST_PORT:
         message = f"--at {text}: write HOST:PORT, for example 10.0.0.7:502, or a serial device such as /dev/ttyUSB0"
         raise OptionError(message)
