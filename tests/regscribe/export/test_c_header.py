@@ -54,6 +54,15 @@ def test_a_value_of_a_queue_has_its_place_there_and_the_address_of_the_queue(
     assert (found["EVENT_ADDR"], found["EVENT_QUEUE"]) == ("1u", "1246u")
 
 
+def test_codes_that_want_the_name_of_an_order_or_a_type_get_another(exported_text: Text, small: Small) -> None:
+    rows = ("at: 0, name: Order, enum: {5: ABCD, 6: middle}", "at: 1, name: Type, enum: {7: int16}")
+    text = exported_text("c-header", small(*rows))
+    assert "#define EXAMPLEA1_ORDER_ABCD 0u" in text
+    assert "    EXAMPLEA1_ORDER_ABCD_2 = 5, /* ABCD */" in text
+    assert "    EXAMPLEA1_ORDER_MIDDLE = 6 /* middle */" in text
+    assert "    EXAMPLEA1_TYPE_INT16_2 = 7 /* int16 */" in text
+
+
 def test_a_scale_is_an_exact_ratio_of_whole_numbers(constants: Callable[..., dict[str, str]]) -> None:
     found = constants("at: 0, name: Third, divide: 3, add: -0.25")
     keys = ("SCALE_NUM", "SCALE_DEN", "OFFSET_NUM", "OFFSET_DEN")

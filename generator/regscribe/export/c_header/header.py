@@ -34,7 +34,7 @@ def header(device: Device) -> str:
         "",
         "#include <stdint.h>",
         "",
-        *_numbers(prefix, device),
+        *(f"#define {registers.names.give(name)} {text}" if name else "" for name, text in _numbers(prefix, device)),
         *_groups(device, registers),
         "",
         f"#endif /* {guard} */",
@@ -50,14 +50,15 @@ def _head(device: Device) -> Iterator[str]:
     yield " */"
 
 
-def _numbers(prefix: str, device: Device) -> Iterator[str]:
+def _numbers(prefix: str, device: Device) -> Iterator[tuple[str, str]]:
+    """What is the same for every register, given away first: codes of a register may want such a name too."""
     limits = device.register_map.protocol
-    yield f"#define {prefix}_READ_WORDS_MAX {limits.read_words}u"
-    yield f"#define {prefix}_WRITE_WORDS_MAX {limits.write_words}u"
-    yield ""
-    yield from (f"#define {prefix}_SPACE_{space.name} {number}u" for space, number in SPACES.items())
-    yield from (f"#define {prefix}_ORDER_{order} {number}u" for number, order in enumerate(LETTERS.values()))
-    yield from (f"#define {prefix}_TYPE_{kind.upper()} {unsigned(number)}" for number, kind in enumerate(TYPES, 1))
+    yield f"{prefix}_READ_WORDS_MAX", f"{limits.read_words}u"
+    yield f"{prefix}_WRITE_WORDS_MAX", f"{limits.write_words}u"
+    yield "", ""
+    yield from ((f"{prefix}_SPACE_{space.name}", f"{number}u") for space, number in SPACES.items())
+    yield from ((f"{prefix}_ORDER_{order}", f"{number}u") for number, order in enumerate(LETTERS.values()))
+    yield from ((f"{prefix}_TYPE_{kind.upper()}", unsigned(number)) for number, kind in enumerate(TYPES, 1))
 
 
 def _groups(device: Device, registers: Registers) -> Iterator[str]:
