@@ -69,6 +69,14 @@ def test_the_report_as_json_has_each_register_and_each_loss(cli: Cli) -> None:
     ]
 
 
+@pytest.mark.parametrize("report", ["json", "sarif"])
+def test_warnings_do_not_stand_before_a_report_that_programs_read(cli: Cli, oven: Path, report: str) -> None:
+    oven.write_text(PLAIN + "      - {at: 3, name: Setpoint, id: other}\n", encoding="utf-8")
+    assert "RS0413" in cli(*HEADER).err
+    assert isinstance(json.loads(cli(*HEADER, "--report", report).err), dict)
+    assert "RS0413" in cli(*HEADER, "--report", report, "--report-to", "losses").err
+
+
 @pytest.mark.usefixtures("oven")
 def test_the_report_as_sarif_is_valid_and_has_each_loss(cli: Cli) -> None:
     (run,) = json.loads(cli(*TELEGRAF, "--report", "sarif").err)["runs"]

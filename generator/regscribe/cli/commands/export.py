@@ -57,7 +57,8 @@ def command(
     with raised_as(click.ClickException, PluginError, FileError), raised_as(click.UsageError, OptionError):
         _refuse_one_place(out, report_to)
         options = own_options(plugins.exporter(form), parameters)
-        register_maps = compiled_maps(find_maps(maps), nothing="nothing was exported")
+        warned = report == "text" or report_to is not None
+        register_maps = compiled_maps(find_maps(maps), nothing="nothing was exported", warned=warned)
         made = plugins.export(form, register_maps, options)
         refused = strict and bool(made.losses)
         if not refused:
