@@ -9,7 +9,7 @@ from regscribe.draft import Entry
 from regscribe.importers.table.cells import Unclear
 from regscribe.importers.table.cells.addresses import Address
 from regscribe.importers.table.cells.detect import Row as Detected
-from regscribe.importers.table.cells.doubts import below_type
+from regscribe.importers.table.cells.doubts import below_in, below_type
 from regscribe.importers.table.cells.ranges import Limits, Ranged, Settled, settle_ranges
 from regscribe.importers.table.cells.scales import PLAIN
 from regscribe.importers.table.cells.types import TypeCell
@@ -135,8 +135,9 @@ def _grown(making: Making, address: Address, index: int, whole: Whole, choices: 
         add_scale(making, whole, index)  # before the unit, which a scale may say (`1 = 0.1 A`)
         add_unit(making)
         limits = whole.limits[index] if item["range"] or item["min"] or item["max"] else None
-        if isinstance(limits, Limits) and (doubt := below_type(limits, making.wire, making.scale or PLAIN)):
-            raise LeftOutError(UNCLEAR_TYPE, doubt.message)
+        for below in (limits, below_in(item["description"]) if making.scale else None):
+            if isinstance(below, Limits) and (doubt := below_type(below, making.wire, making.scale or PLAIN)):
+                raise LeftOutError(UNCLEAR_TYPE, doubt.message)
         if special:
             add_special(making, special)
         if making.type.kind == "flags":

@@ -67,7 +67,8 @@ def whole_of(items: Sequence[Item], columns: Sequence[Column], choices: Choices,
     found = _addresses(items, columns, hints, choices)
     spaces = tuple(_space(hint, address, choices) for hint, address in zip(hints, found.cells, strict=True))
     gaps = gaps_of(found.cells, spaces)
-    choice = choose_dialect(_texts(items, "type"), _texts(items, "length"), gaps, said=choices.dialect)
+    sizes = [_size(item, cell) for item, cell in zip(items, found.cells, strict=True)]
+    choice = choose_dialect(_texts(items, "type"), sizes, gaps, said=choices.dialect)
     comma = decimal_comma(text for role in NUMBERS for text in _texts(items, role))
     limits, why_limits = _limits(items, comma)
     types = tuple(
@@ -123,9 +124,14 @@ def _limits(items: Sequence[Item], comma: bool | None) -> tuple[tuple[Limits | U
 
 
 def _type(item: Item, address: Parsed, dialect: Dialect, gap: int) -> TypeCell | Unclear | None:
-    """The type of a row; the registers of a range are its size where no cell says one."""
+    """The type of a row."""
+    return parse_type(item["type"], dialect, size=_size(item, address), gap=gap)
+
+
+def _size(item: Item, address: Parsed) -> str:
+    """The size of a row: the registers of its range where no cell says one."""
     count = address.count if isinstance(address, Address) and item["type"] else 0
-    return parse_type(item["type"], dialect, size=item["length"] or (f"{count} registers" if count else ""), gap=gap)
+    return item["length"] or (f"{count} registers" if count else "")
 
 
 def _wire(found: TypeCell | Unclear | None, choices: Choices) -> WireType | None:

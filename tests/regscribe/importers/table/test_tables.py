@@ -562,3 +562,42 @@ def test_a_column_for_names_that_is_nearly_empty_leaves_the_names_to_another() -
     assert [one and one["name"] for one in keys(found)][:2] == ["Charge", "State 2"]
     assert keys(found)[0] == {"at": 1, "name": "Charge", "access": "r", "description": "soc"}
     assert found.entries[0].outcome is Outcome.WHOLE
+
+
+@pytest.mark.parametrize(
+    ("description", "kind", "offset", "whole"),
+    [
+        ("Actual value: -20~18°C", "uint16", "", False),
+        ("-20 to 60", "uint16", "", False),
+        ("-20 to 60", "int16", "", True),
+        ("-20 to 60", "uint16", "-40", True),
+        ("steps 5-20 to 60", "uint16", "", True),
+        ("20 to 60", "uint16", "", True),
+    ],
+)
+def test_a_description_whose_range_begins_below_0_makes_a_type_without_a_sign_unclear(
+    description: str, kind: str, offset: str, *, whole: bool
+) -> None:
+    found = draft(f"Register,Name,Type,Access,Offset,Description\n1,Outdoor,{kind},r,{offset},{description}\n")
+    (entry,) = found.entries
+    assert (entry.outcome is not Outcome.LEFT_OUT) is whole
+    assert whole or "the range begins at -20: perhaps it has a sign" in entry.remarks[0].message
+
+
+@pytest.mark.parametrize("description", ["3 phase power", "-20 to 60", "5 minutes mean of it", "100 steps in all"])
+def test_a_number_with_which_a_description_begins_is_no_scale(description: str) -> None:
+    found = only(f"Register,Name,Type,Access,Description\n1,Power,int16,r,{description}\n")
+    assert found == {"at": 1, "name": "Power", "access": "r", "type": "int16", "description": description}
+
+
+def test_a_number_below_1_before_a_word_that_is_no_unit_leaves_the_scale_open() -> None:
+    found = draft("Register,Name,Type,Access,Description\n1,Power,int16,r,0.1 of the load\n")
+    assert "scale-unclear" in [remark.code for remark in found.entries[0].remarks]
+
+
+def test_the_registers_that_most_ranges_of_a_type_have_are_its_width_where_no_range_stands() -> None:
+    rows = "10-11,A,UINT,r\n12-13,B,UINT,r\n14-15,C,UINT,r\n16-16,D,UINT,r\n17,E,UINT,r\n"
+    found = draft(f"Register,Name,Type,Access\n{rows}")
+    types = [one and one.get("type", "uint16") for one in keys(found)]
+    assert types == ["uint32", "uint32", "uint32", "uint16", "uint32"]
+    assert "UINT has 32 bits, as 3 of 4 sizes beside it say" in found.stated

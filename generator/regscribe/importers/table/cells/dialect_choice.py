@@ -72,6 +72,9 @@ def choose_dialect(
 ENOUGH = 3
 """Rows whose distances to the next show a width; fewer may have a gap by chance."""
 
+MOSTLY = 3
+"""How many times more sizes must say one width than say another, to count where none stands."""
+
 Row = tuple[str, str, int]
 """The words of a type, the cell of its size, the distance to the next register."""
 
@@ -97,9 +100,12 @@ def _width(word: str, rows: Sequence[tuple[str, int]], size_bits: int | None) ->
     """How wide a word is, by the sizes beside it, else by the gaps behind it, else as it is usual."""
     _, widths, usual = WIDTHS[word]
     sized = Counter(bits for size, _ in rows if (bits := _bits_of(size, size_bits)) in widths)
-    if len(sized) == 1:
-        bits = next(iter(sized))
-        return bits, f"{word.upper()} has {bits} bits, as the sizes beside it say"
+    if sized:
+        bits, count = sized.most_common(1)[0]
+        if count == sized.total():
+            return bits, f"{word.upper()} has {bits} bits, as the sizes beside it say"
+        if count >= MOSTLY * (sized.total() - count):
+            return bits, f"{word.upper()} has {bits} bits, as {count} of {sized.total()} sizes beside it say"
     gaps = [gap for _, gap in rows if gap]
     if gaps and word != "byte" and (min(gaps) == 1 or len(gaps) >= ENOUGH):
         least = min(gaps)

@@ -42,7 +42,21 @@ def scale_in(text: str) -> Scale | Unclear | None:
     """The scale that a description says, if it says nothing else (`1 = 0.1 A`); Unclear if it speaks of one."""
     plain = clean(text)
     if bare_number(plain) is None and isinstance(found := parse_scale(plain), Scale):
-        return found
+        return _only_a_scale(plain, found)
     if talk := _TALK.search(plain):
         return Unclear(f"the description says something of a scale, {quoted(talk[0])}")
     return None
+
+
+_NUMBER_FIRST = re.compile(rf"{NUMBER}\s*[^\W\d_\u00b0%]")
+
+
+def _only_a_scale(plain: str, found: Scale) -> Scale | Unclear | None:
+    """A scale that is a whole description; a number with a word may be part of a sentence (`3 phase power`)."""
+    if not found.unit or "=" in plain or not _NUMBER_FIRST.match(plain):
+        return found
+    unit = parse_unit(found.unit)
+    is_unit, is_part = isinstance(unit, UnitCell) and unit.known, 0 < found.multiply < 1
+    if is_unit and is_part:
+        return found
+    return Unclear(f"the description {quoted(plain)} may say a scale") if is_unit or is_part else None
