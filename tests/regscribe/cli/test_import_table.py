@@ -95,6 +95,13 @@ def test_what_is_no_table_is_one_message_and_nothing_is_written(
     assert (Path("maps").exists(), Path("m.yaml").exists(), done.out) == (False, False, "")
 
 
+def test_an_empty_source_is_told_as_such(cli: Callable[..., Any]) -> None:
+    Path("list.csv").write_bytes(b"\n")
+    done = cli("import", "list.csv", "-o", "maps/acme/pump.yaml")
+    assert (done.code, Path("maps").exists()) == (2, False)
+    assert "list.csv is empty" in done.err
+
+
 def test_a_wrong_option_is_wrong_usage(cli: Callable[..., Any]) -> None:
     Path("liste.csv").write_text(LIST, encoding="utf-8")
     done = cli("import", "liste.csv", "--base", "seven", "-o", "maps/acme/pump.yaml")

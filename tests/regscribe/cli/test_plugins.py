@@ -135,9 +135,10 @@ def test_what_an_importer_finds_wrong_writes_nothing(cli: Callable[..., Any]) ->
     assert done.code == 1
     assert "nothing is in it" in done.err
     assert not Path("maps/acme/pump.yaml").exists()
-    done = cli("import", "names.txt")
+    Path("names.json").write_text("{}")
+    done = cli("import", "names.json")
     assert done.code == 2
-    assert "nothing here reads names.txt: say with --format what it is" in done.err
+    assert "nothing here reads names.json: say with --format what it is" in done.err
 
 
 @pytest.mark.usefixtures("lists")

@@ -54,7 +54,9 @@ def recognised(data: bytes, name: str) -> str:
     if len(found) == 1:
         return found[0]
     known = ", ".join(plugins.names(IMPORTERS))
-    if found:
+    if not data.strip():
+        message = f"{name} is empty"
+    elif found:
         message = f"{name} may be {' or '.join(found)}: say with --format which"
     else:
         message = f"nothing here reads {name}: say with --format what it is, of {known}"

@@ -15,6 +15,12 @@ LONGEST_TITLE = 80
 FOOTNOTE = re.compile(r"(?:[*†‡]|\(?\d\)|\d\.\s|[Nn]ote|NOTE|Hinweis|Anm|Remarque|注).*|.*[.;]$", re.DOTALL)
 """How footnotes begin or end, which titles of sections do not."""
 
+PAGE = re.compile(r"(?:[Pp]age|PAGE|[Ss]eite|[Pp][aá]gina)\s+\d.*")
+"""The number of a page, which is neither a title nor an address."""
+
+CODE = re.compile(r"\d{1,5}\s*=\s*(?!\d*[.,]\d)\S.*")
+"""A code with its label, but no `1 = 0.1 A`."""
+
 JOINED = frozenset({"values", "bits", "description", "range"})
 """Columns whose cells go on in the rows below."""
 
@@ -52,6 +58,8 @@ def lay_out(grid: Grid, header: Header, columns: Sequence[Column]) -> Layout:
     for row in grid.rows[header.last + 1 :]:
         if header.repeated_by(row, grid):
             found.headers += 1
+        elif used and found.items and (code := _code(row)):
+            found.items[-1] = _with_code(found.items[-1], row, code)
         elif (title := _title(row, columns)) is not None:
             if section is not None and not used:
                 found.findings.append(_stray(grid, section))
@@ -76,13 +84,27 @@ def _title(row: Row, columns: Sequence[Column]) -> str | None:
         return None
     (text,) = own
     roles = {column.role for column in columns if row.cell(column.index) and column.index not in row.repeated}
-    if (roles <= JOINED and roles) or (AT in roles and len(roles) == 1 and is_address(text)):
+    if (roles <= JOINED and roles) or (
+        AT in roles and len(roles) == 1 and is_address(text) and not PAGE.fullmatch(text)
+    ):
         return None
     return " ".join(text.split())
 
 
+def _code(row: Row) -> str:
+    """The code that a row says alone, in whatever column texts that wrap have put it; empty if it says none or more."""
+    own = [cell for at, cell in enumerate(row.cells) if cell and at not in row.repeated]
+    return own[0] if len(own) == 1 and CODE.fullmatch(own[0]) else ""
+
+
+def _with_code(item: Item, row: Row, code: str) -> Item:
+    role = "values" if item["values"] else "description"
+    cells = item.cells | {role: f"{item[role]}\n{code}".strip()}
+    return replace(item, cells=cells, more=(*item.more, row))
+
+
 def _is_section(title: str) -> bool:
-    return len(title) <= LONGEST_TITLE and not FOOTNOTE.fullmatch(title)
+    return len(title) <= LONGEST_TITLE and not FOOTNOTE.fullmatch(title) and not PAGE.fullmatch(title)
 
 
 def _stray(grid: Grid, row: Row) -> Diagnostic:

@@ -9,6 +9,7 @@ from regscribe.importers.table.cells.access import AccessCell, parse_access
 from regscribe.importers.table.cells.enums import Codes, parse_codes
 from regscribe.importers.table.cells.limits import Limits
 from regscribe.importers.table.cells.scales import PLAIN
+from regscribe.importers.table.cells.units import is_of_a_number
 from regscribe.importers.table.choices import Choices
 from regscribe.importers.table.making import Making
 from regscribe.importers.table.whole import Whole
@@ -55,10 +56,8 @@ def codes_of(making: Making, whole: Whole, index: int) -> Codes | None:
 def _misplaced(making: Making, whole: Whole, index: int) -> Codes | None:
     """Codes that stand under range or unit; in a description only where nothing says that the register is a number."""
     item, limits = making.item, whole.limits[index]
-    number = any(item[role] for role in ("unit", "decimals", "offset")) or whole.scales.cells[index] not in {
-        None,
-        PLAIN,
-    }
+    number = any(item[role] for role in ("decimals", "offset")) or is_of_a_number(item["unit"])
+    number = number or whole.scales.cells[index] not in {None, PLAIN}
     for role in ("range", "unit", *(() if number else ("description",))):
         flags = making.type.kind == "flags" or None
         found = parse_codes(item[role], flags=flags, width=16 * max(making.words, 1)) if item[role] else None

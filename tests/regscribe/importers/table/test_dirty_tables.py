@@ -228,6 +228,18 @@ def test_codes_beside_a_number_are_values_with_names_and_no_enum(imported: Impor
     assert found.members("mode") == {0: "off", 1: "on", 2: "auto"}
 
 
+@pytest.mark.parametrize("unit", ["-", "N/A", "enum"])
+def test_codes_in_a_remark_count_where_the_unit_says_that_there_is_none(imported: Import, unit: str) -> None:
+    found = imported("table", f"Register,Name,Type,Unit,Remark\n0,Mode,U16,{unit},0: Off; 1: Cool\n")
+    assert "enum: {0: 'Off', 1: Cool}" in found.text
+
+
+@pytest.mark.parametrize("unit", ["s", "F"])
+def test_codes_in_a_remark_are_no_enum_beside_a_unit(imported: Import, unit: str) -> None:
+    found = imported("table", f"Register,Name,Type,Unit,Remark\n0,Mode,U16,{unit},0: Off; 1: Cool\n")
+    assert "enum" not in found.text
+
+
 def test_a_code_that_may_count_both_is_asked_for(imported: Import) -> None:
     found = imported("table", NAMED_VALUES)
     assert found.codes("Setpoint") == ["codes-unclear", "range-unclear"]

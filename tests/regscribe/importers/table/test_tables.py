@@ -264,6 +264,22 @@ def test_titles_of_sections_become_groups_and_footnotes_are_told() -> None:
     assert "this row is no register and the title of none: `* only type 3`" in found.findings[0].message
 
 
+def test_codes_alone_in_rows_go_on_with_the_register_above_and_pages_are_no_titles() -> None:
+    text = PLAIN + "0,Baud rate,U16,R\n,,0 = 9600,\n,,1 = 19200,\nPage 12 of 40,,,\n1,Speed,U16,R\n"
+    found = draft(text)
+    assert [(entry.group, (entry.keys or {}).get("enum")) for entry in found.entries] == [
+        ("Registers", {0: "9600", 1: "19200"}),
+        ("Registers", None),
+    ]
+    assert "the title of none: `Page 12 of 40`" in found.findings[0].message
+
+
+@pytest.mark.parametrize("text", ["1 = 0.1 A", "Status 1 = on"])
+def test_other_texts_with_an_equals_sign_are_no_codes_of_the_register_above(text: str) -> None:
+    found = draft(PLAIN + f"0,Speed,U16,R\n{text},,,\n1,Level,U16,R\n")
+    assert "description" not in (found.entries[0].keys or {})
+
+
 @pytest.mark.parametrize(
     ("title", "space"),
     [

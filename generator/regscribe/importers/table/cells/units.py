@@ -95,6 +95,11 @@ def may_scale(text: str) -> bool:
     return bool(_STRAY_DIGIT.search(plain)) and not re.match(r"[0-9]+\s*[=:]", plain)
 
 
+def is_of_a_number(text: str) -> bool:
+    """Whether a unit tells a number from a code: `-` and `enum` do not."""
+    return parse_unit(text) is not None and clean(text).casefold() not in _KINDS
+
+
 def _with_factor(plain: str, text: str) -> UnitCell | Unclear | None:
     """The unit behind a factor; None where no factor stands."""
     factor: Fraction | Unclear
