@@ -58,7 +58,7 @@ def lay_out(grid: Grid, header: Header, columns: Sequence[Column]) -> Layout:
     for row in grid.rows[header.last + 1 :]:
         if header.repeated_by(row, grid):
             found.headers += 1
-        elif used and found.items and (code := _code(row)):
+        elif used and found.items and (code := _code(row, columns)):
             found.items[-1] = _with_code(found.items[-1], row, code)
         elif (title := _title(row, columns)) is not None:
             if section is not None and not used:
@@ -91,10 +91,12 @@ def _title(row: Row, columns: Sequence[Column]) -> str | None:
     return " ".join(text.split())
 
 
-def _code(row: Row) -> str:
-    """The code that a row says alone, in whatever column texts that wrap have put it; empty if it says none or more."""
-    own = [cell for at, cell in enumerate(row.cells) if cell and at not in row.repeated]
-    return own[0] if len(own) == 1 and CODE.fullmatch(own[0]) else ""
+def _code(row: Row, columns: Sequence[Column]) -> str:
+    """The code that a row says alone in a column that is not for it, as wrapped texts do; empty if there is none."""
+    own = [at for at, cell in enumerate(row.cells) if cell and at not in row.repeated]
+    if len(own) != 1 or any(column.index == own[0] and column.role in JOINED for column in columns):
+        return ""
+    return row.cells[own[0]] if CODE.fullmatch(row.cells[own[0]]) else ""
 
 
 def _with_code(item: Item, row: Row, code: str) -> Item:

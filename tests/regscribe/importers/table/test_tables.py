@@ -274,6 +274,11 @@ def test_codes_alone_in_rows_go_on_with_the_register_above_and_pages_are_no_titl
     assert "the title of none: `Page 12 of 40`" in found.findings[0].message
 
 
+def test_codes_below_a_register_stay_in_their_own_column_beside_a_unit() -> None:
+    found = draft("Address,Name,Type,Unit,Values\n0,Timer,U16,s,\n,,,,0 = off\n,,,,1 = on\n")
+    assert dict(found.entries[0].keys or {})["special"] == {0: "off", 1: "on"}
+
+
 @pytest.mark.parametrize("text", ["1 = 0.1 A", "Status 1 = on"])
 def test_other_texts_with_an_equals_sign_are_no_codes_of_the_register_above(text: str) -> None:
     found = draft(PLAIN + f"0,Speed,U16,R\n{text},,,\n1,Level,U16,R\n")
