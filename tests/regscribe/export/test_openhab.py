@@ -372,6 +372,7 @@ def test_what_is_lost_is_told(
         ("multiply: 0.3", "dividing by its scale has no finite decimal, at which the profile fails"),
         ("type: uint16, flags: {0: run}", "the items do not write a value of the kind flags"),
         ("type: uint8", "the binding does not write single bytes"),
+        ("danger: the oven gets hot", "a write is dangerous"),
     ],
 )
 def test_what_the_binding_would_write_wrongly_is_read_only(

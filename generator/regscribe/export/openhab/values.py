@@ -4,7 +4,8 @@ from fractions import Fraction
 from typing import NamedTuple
 
 from regscribe.export.device import Point, Wire
-from regscribe.export.device.places import places_of, write_functions
+from regscribe.export.device.places import places_of
+from regscribe.export.device.writes import obstacle
 from regscribe.model import Kind, Order, Space, WireType
 from regscribe_runtime.values.protocol import Protocol
 
@@ -99,8 +100,7 @@ def why_read_only(protocol: Protocol, point: Point) -> str:
     register = point.register
     reasons = {
         f"the items do not write a value of the kind {register.kind}": register.kind not in WRITTEN,
-        "a write needs commands around it": register.unlock or register.apply,
-        "the device has no function that writes it": not write_functions(protocol, point),
+        (why := obstacle(point, protocol)): bool(why),
         "the binding does not write single bytes": point.wire.type in BYTES,
         "its scale has no finite decimal": not is_finite(point.slope) or not is_finite(before_gain(point)),
         "dividing by its scale has no finite decimal, at which the profile fails": not is_finite(1 / point.slope),
