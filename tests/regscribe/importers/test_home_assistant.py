@@ -157,6 +157,16 @@ def test_a_switch_is_read_where_it_is_verified_and_else_is_write_only(imported: 
     assert (blower.access, found.members("blower")) == ("w", {0: "off", 1: "on"})
 
 
+def test_a_coil_that_is_on_while_it_is_0_is_told(imported: Import) -> None:
+    found = imported(
+        "home-assistant",
+        HUB + "    switches:\n      - {name: Valve, address: 9, write_type: coil, command_on: 0, command_off: 1}\n"
+        "      - {name: Lamp, address: 8, write_type: coil}\n",
+    )
+    assert found.codes("Valve") == ["command-on-dropped"]
+    assert found.codes("Lamp") == []
+
+
 def test_a_climate_is_a_temperature_a_setpoint_and_modes(imported: Import) -> None:
     found = imported("home-assistant", OUTPUTS)
     assert found.value("room_temperature", 215) == Fraction("21.5")

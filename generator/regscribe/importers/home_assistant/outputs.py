@@ -49,6 +49,8 @@ def switches(found: Collecting, entity: Node, name: str, group: str) -> None:
         point = point if verify is None else _verified(keys, Keys(verify), point, codes)
         if codes[0] == codes[1]:
             refuse("command_on", f"command_on and command_off are both {codes[0]}")
+        if space.is_bits and not codes[0]:
+            keys.remarks.append(Remark("command-on-dropped", "command_on 0: the coil is off while this is on"))
         return _on_off(replace(point, more={**point.more, **poll(keys)}), *codes)
 
     found.add(name, entity, make)
