@@ -134,24 +134,25 @@ def dump(data: Mapping[str, Any], *, remarks: Sequence[str] = ()) -> str:
     return "".join(f"# {safe(remark)}\n" for remark in remarks) + body
 
 
-def save(path: Path, content: str | bytes) -> None:
+def save(path: Path, content: str | bytes, *, new: bool = False) -> None:
     """Write a file (a text as UTF-8) beside its place, flush it to the disk and move it into its place.
 
     What a link leads to is written, and the link stays; a device or a pipe is written to and never replaced. Raises
-    FileError where that fails (a full disk); a file that was there before is then as it was.
+    FileError where that fails (a full disk); a file that was there before is then as it was. With `new` it also fails
+    where there is a file, whoever else writes one at the same time.
     """
     octets = content.encode() if isinstance(content, str) else content
     try:
         if path.exists() and not path.is_file():
             path.write_bytes(octets)
         else:
-            _replace(path.resolve(), octets)
+            _replace(path.resolve(), octets, new=new)
     except (OSError, RuntimeError) as error:  # a loop of links is a RuntimeError before Python 3.13
         message = f"{path} cannot be written ({getattr(error, 'strerror', None) or error}); nothing of it was changed"
         raise FileError(message) from None
 
 
-def _replace(path: Path, octets: bytes) -> None:
+def _replace(path: Path, octets: bytes, *, new: bool) -> None:
     """Write a file beside its place and move it there. Raises OSError, and leaves nothing behind."""
     descriptor, temporary = tempfile.mkstemp(prefix=f".{path.name[:100]}.", dir=path.parent)
     try:
@@ -160,7 +161,11 @@ def _replace(path: Path, octets: bytes) -> None:
             file.flush()
             os.fsync(file.fileno())
             os.fchmod(file.fileno(), _mode(path))
-        Path(temporary).replace(path)
+        if new:
+            path.hardlink_to(temporary)  # which fails where there is a file, as no move does
+            Path(temporary).unlink()
+        else:
+            Path(temporary).replace(path)
     except OSError:
         with suppress(OSError):
             Path(temporary).unlink()

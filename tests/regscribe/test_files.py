@@ -99,3 +99,11 @@ def test_a_loop_of_links_cannot_be_written(tmp_path: Path) -> None:
     loop.symlink_to("loop")
     with pytest.raises(files.FileError, match="cannot be written"):
         files.save(loop, "never")
+
+
+def test_a_new_file_is_not_put_over_one_that_another_wrote_meanwhile(tmp_path: Path) -> None:
+    file = tmp_path / "map.yaml"
+    files.save(file, "first", new=True)
+    with pytest.raises(files.FileError, match="File exists"):
+        files.save(file, "second", new=True)
+    assert [(one.name, one.read_text(encoding="utf-8")) for one in tmp_path.iterdir()] == [("map.yaml", "first")]

@@ -122,3 +122,17 @@ def test_many_rows_of_which_the_same_is_said_are_told_together_and_apart_in_json
     assert "  and 7 rows more of which the same is said: line 3, line 4, line 5, .. line 9" in told
     cli("import", "list.csv", "-o", "other.yaml", "--report", "json", "--report-to", "report.json")
     assert len(json.loads(Path("report.json").read_text(encoding="utf-8"))["rows"]) == 9
+
+
+def test_a_name_longer_than_any_is_cut_in_the_text_of_the_report(cli: Callable[..., Any]) -> None:
+    Path("long.csv").write_text(
+        f"Address,Name,Type,Access\n1,{'n' * 30_000},what,r\n2,Level,uint16,r\n", encoding="utf-8"
+    )
+    done = cli("import", "long.csv")
+    assert f"{'n' * 100}..." in done.err
+    assert "n" * 101 not in done.err
+
+
+def test_a_configuration_in_lines_is_no_table_even_if_one_looks_like_a_header(cli: Callable[..., Any]) -> None:
+    Path("flow.yaml").write_text("Address, Name, Type, Access\n1, Level, uint16, r\n", encoding="utf-8")
+    assert "nothing here reads flow.yaml" in cli("import", "flow.yaml").err

@@ -77,20 +77,20 @@ def command(  # noqa: PLR0913 - one for each option
             advance(f"checking what {safe(name)} became")
             run.settle(map_id, out, merging=merge)
         if run.text is not None:
-            _put(run, out, save_mapping)
+            _put(run, out, save_mapping, merging=merge)
         told = report_of(run.draft, run.found, source=name, form=form, report=report, notes=run.notes)
         warn(told) if report_to is None else save(report_to, told)
     return code_of(run)
 
 
-def _put(run: Run, out: Path | None, save_mapping: Path | None) -> None:
+def _put(run: Run, out: Path | None, save_mapping: Path | None, *, merging: bool) -> None:
     """Write the map, and the mapping where there is to be one."""
     if out is None:
         if save_mapping is not None:
             run.save_mapping(save_mapping, imported=False)
         tell(run.text or "")
         return
-    run.save_map(out)
+    run.save_map(out, merging=merging)
     warn(f"{safe(str(out))} is ready; then: regscribe check {safe(str(out))}\n")
     if save_mapping is not None:
         run.save_mapping(save_mapping, imported=True)

@@ -12,6 +12,8 @@ from regscribe.draft.differences import Change, Note
 from regscribe.model import Diagnostic, Severity
 from regscribe.visible import json_text, safe
 
+LONGEST_NAME = 100
+
 FORMS = ("text", "json", "sarif")
 HEADS = ("column", "heading", "understood as", "because")
 MOST_HEADING = 40
@@ -83,12 +85,17 @@ def _rows(entries: Iterable[Entry]) -> Iterator[str]:
         told = same if len(same) <= MOST_ALIKE else same[:1]
         for entry in told:
             said = "; ".join(f"{remark.code}: {remark.message}" for remark in entry.remarks)
-            yield f"{_place(entry)}: {entry.name}: {entry.outcome}: {said or 'no reason is given'}"
+            yield f"{_place(entry)}: {_called(entry)}: {entry.outcome}: {said or 'no reason is given'}"
         if others := same[len(told) :]:
             first = ", ".join(map(_place, others[:SHOWN_ALIKE]))
             yield f"  and {len(others)} rows more of which the same is said: {first}, .. {_place(others[-1])}"
     if any(len(same) > MOST_ALIKE for same in alike.values()):
         yield "--report json tells each row by itself"
+
+
+def _called(entry: Entry) -> str:
+    """The name, cut where it is longer than any name; JSON has it whole."""
+    return entry.name if len(entry.name) <= LONGEST_NAME else f"{entry.name[:LONGEST_NAME]}..."
 
 
 def _place(entry: Entry) -> str:

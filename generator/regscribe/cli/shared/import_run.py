@@ -95,14 +95,14 @@ class Run:
         owner = self.written.owners.get(note.place.line)
         return replace(note, place=owner.place) if note.place.file == IMPORTED and owner is not None else note
 
-    def save_map(self, out: Path) -> None:
-        """Write the map. Raises FileError."""
+    def save_map(self, out: Path, *, merging: bool) -> None:
+        """Write the map, a new file unless it is merged into. Raises FileError."""
         try:
             out.parent.mkdir(parents=True, exist_ok=True)
         except OSError as error:
             message = f"cannot write {out}: {error.strerror or error}"
             raise FileError(message) from None
-        save(out, self.text or "")
+        save(out, self.text or "", new=not merging)
 
     def save_mapping(self, path: Path, *, imported: bool) -> None:
         """Write the mapping, with what was imported if the map was written. Raises FileError."""

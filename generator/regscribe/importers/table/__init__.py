@@ -21,12 +21,15 @@ name = "table"
 summary = "a table of registers: CSV, XLSX, PDF, or text from a clipboard"
 options = OPTIONS
 
+TREES = (".yaml", ".yml", ".json", ".toml", ".conf")
+"""Endings of files that are no table, whatever a line of them looks like."""
+
 ENDINGS = (".csv", ".tsv", ".txt", ".xlsx", ".xlsm", ".pdf", ".tab", ".xls", ".ods")
 
 
 def likeness(data: bytes, name: str) -> Likeness:
     """Perhaps: a file of such an ending, a workbook, a PDF, or a text with a header that names registers."""
-    if not data.strip():
+    if not data.strip() or PurePath(name.lower()).suffix in TREES:
         return Likeness.NO
     if PurePath(name.lower()).suffix in ENDINGS or is_workbook(data) or is_pdf(data):
         return Likeness.PERHAPS
