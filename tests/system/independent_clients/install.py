@@ -66,8 +66,9 @@ def install_node_modules() -> None:
     for name in ("package.json", "package-lock.json"):
         shutil.copy(HERE / "node" / name, CACHE / name)
     done = subprocess.run(
-        ["npm", "ci", "--ignore-scripts", "--no-audit", "--no-fund", "--silent"],  # noqa: S607 (as installed)
+        ["npm", "ci", "--ignore-scripts", "--no-audit", "--no-fund", "--loglevel=error"],  # noqa: S607 (as installed)
         cwd=CACHE,
+        env={"NODE_EXTRA_CA_CERTS": os.environ.get("SSL_CERT_FILE", ""), **os.environ},
         stdin=subprocess.DEVNULL,
         timeout=PATIENCE,
         check=False,

@@ -154,8 +154,14 @@ def _tried(command: list[str]) -> bool:
 
 def _modules(one: Consumer) -> None:
     if one.npm:
-        options = ["--ignore-scripts", "--no-audit", "--no-fund", "--silent", "--prefix", str(one.folder)]
-        _run(["npm", "install", *options, *one.npm], f"npm install {' '.join(one.npm)}")
+        options = ["--ignore-scripts", "--no-audit", "--no-fund", "--loglevel=error", "--prefix", str(one.folder)]
+        _run(["npm", "install", *options, *one.npm], f"npm install {' '.join(one.npm)}", environment=_trusting())
+
+
+def _trusting() -> dict[str, str]:
+    """The environment, in which npm trusts the certificates that other programs are told to trust."""
+    certificates = os.environ.get("SSL_CERT_FILE", "")
+    return {**({"NODE_EXTRA_CA_CERTS": certificates} if certificates else {}), **os.environ}
 
 
 def _unpack(one: Consumer) -> None:
