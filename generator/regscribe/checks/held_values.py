@@ -119,15 +119,19 @@ def no_member(register: Register, value: Fraction | str) -> str:
 
 
 def impossible(register: Register, value: Fraction | str) -> str:
-    """Why a register cannot hold a value exactly, as `which is ...`; empty where it can."""
+    """Why a register should not hold a value, as `which is ...`: its words cannot, or no enum lists it; else empty."""
+    problem = unspellable(register, value)
+    return problem or ("which is none of its codes" if no_member(register, value) else "")
+
+
+def unspellable(register: Register, value: Fraction | str) -> str:
+    """Why the words of a register cannot hold a value exactly, as `which is ...`; empty where they can."""
     problem = wrong_sort(register, value)
     if problem:
         return problem
     if outside_type(register, value):
         return f"which is outside {ends_of(register)}"
-    if too_fine(register, value):
-        return "which its words cannot spell exactly"
-    return "which is none of its codes" if no_member(register, value) else ""
+    return "which its words cannot spell exactly" if too_fine(register, value) else ""
 
 
 def impossible_part(field: BitField, value: Fraction | str) -> str:

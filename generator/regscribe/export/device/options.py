@@ -6,7 +6,7 @@ from dataclasses import dataclass, field, replace
 from difflib import get_close_matches
 from fractions import Fraction
 
-from regscribe.checks.held_values import default_values, impossible, with_fields
+from regscribe.checks.held_values import default_values, unspellable, with_fields
 from regscribe.model import GivenKind, Layout, Model, Register, RegisterMap, parse
 from regscribe.model.located import layout_of, located
 from regscribe.plugins import Option, OptionError
@@ -223,7 +223,7 @@ def _register_value(model: Model, text: str) -> tuple[str, Fraction]:
         known = f"a number or one of {', '.join(members)}" if members else "a number"
         message = f"--with {text}: the value of `{path}` is {known}"
         raise OptionError(message)
-    if problem := impossible(register, parse(value)):
+    if problem := unspellable(register, parse(value)):
         message = f"--with {text}: the device cannot hold {value} in `{path}`, {problem}"
         raise OptionError(message)
     return path, parse(value)
