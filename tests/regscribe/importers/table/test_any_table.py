@@ -52,7 +52,7 @@ POOLS = {
 ROWS = st.lists(st.fixed_dictionaries({head: st.sampled_from(cells) for head, cells in POOLS.items()}), max_size=6)
 
 
-@settings(max_examples=60, deadline=None)
+@settings(max_examples=60, deadline=None, derandomize=True)
 @given(ROWS, st.sets(st.sampled_from(sorted(set(POOLS) - {"Address", "Name"}))), st.booleans())
 def test_a_table_of_any_cells_is_read_and_what_is_left_out_has_a_reason(
     rows: list[dict[str, str]],
@@ -66,4 +66,4 @@ def test_a_table_of_any_cells_is_read_and_what_is_left_out_has_a_reason(
     options = {one.name: one.default for one in plugins.importer("table").options}
     draft = plugins.read("table", "\n".join(lines).encode(), "list.csv", options)
     assert all(entry.remarks for entry in draft.each if entry.keys is None)
-    assert draft.failed or rows == [] or draft.entries != ()
+    assert draft.failed or not any(row["Address"] for row in rows) or draft.entries != ()  # a lone name is a heading
