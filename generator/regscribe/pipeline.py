@@ -12,7 +12,7 @@ from pathlib import Path
 from regscribe import checks, compose, lower, schema, source
 from regscribe.lower.rules import DEPENDS_ON_MAP
 from regscribe.model import Diagnostic, RegisterMap, Related, Severity
-from regscribe.source import Document
+from regscribe.source import Document, Texts
 
 
 @dataclass(frozen=True, slots=True)
@@ -30,11 +30,14 @@ class Compiled:
     empty: tuple[Path, ...] = ()
 
 
-def compile_map(path: Path) -> Compiled:
-    """Read, validate, compose, lower and check the map at `path`; what is wrong is in the diagnostics."""
+def compile_map(path: Path, unsaved: Texts | None = None) -> Compiled:
+    """Read, validate, compose, lower and check the map at `path`; what is wrong is in the diagnostics.
+
+    `unsaved` are texts that count instead of files: of the map itself and of those that it builds on.
+    """
     found: list[Diagnostic] = []
     with _without_garbage_collection():
-        compiled = _compile(path, found)
+        compiled = _compile(path, found, unsaved)
     return replace(compiled, diagnostics=tuple(sorted(found, key=lambda one: (one.span, one.rule))))
 
 
@@ -50,10 +53,10 @@ def _without_garbage_collection() -> Iterator[None]:
             gc.enable()
 
 
-def _compile(path: Path, found: list[Diagnostic]) -> Compiled:
+def _compile(path: Path, found: list[Diagnostic], unsaved: Texts | None) -> Compiled:
     """Run the phases one after the other, each of which adds to `found`; the result has no diagnostics yet."""
     without_map = Compiled(path, None)
-    document, syntax = source.load(path)
+    document, syntax = source.load(path, unsaved=unsaved)
     found += syntax
     if document is None or has_errors(found):
         return without_map
@@ -63,7 +66,7 @@ def _compile(path: Path, found: list[Diagnostic]) -> Compiled:
     if compose.is_library(document):
         found += _check_library(document, path)
         return without_map
-    composed = compose.compose(document, path)
+    composed = compose.compose(document, path, unsaved)
     found += composed.diagnostics
     if composed.document is not None and composed.document is not document:
         found += schema.validate(composed.document)

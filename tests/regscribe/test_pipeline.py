@@ -24,7 +24,7 @@ def phases(monkeypatch: pytest.MonkeyPatch) -> dict[str, list[Diagnostic]]:
     finds: dict[str, Any] = {phase: [] for phase in PHASES} | {"ran": []}
 
     def phase(name: str, value: object) -> Any:
-        def run(_: object) -> object:
+        def run(*_: object, **__: object) -> object:
             finds["ran"].append(name)
             return finds[name] if value is None else (value, finds[name])
 
@@ -32,8 +32,8 @@ def phases(monkeypatch: pytest.MonkeyPatch) -> dict[str, list[Diagnostic]]:
 
     document = SimpleNamespace(name="m.yaml", content_hash="abc")
 
-    def compose(_: object, path: Path) -> Composed:
-        assert path == PATH
+    def compose(_: object, path: Path, unsaved: object) -> Composed:
+        assert (path, unsaved) == (PATH, None)
         finds["ran"].append("compose")
         return Composed(cast("Any", document), tuple(finds["compose"]))
 
@@ -62,3 +62,28 @@ def test_warnings_of_all_phases_come_with_the_map_in_the_order_of_the_file(phase
     assert compiled.files == ((PATH, "abc"),)
     assert phases["ran"] == list(PHASES)
     assert [diagnostic.rule for diagnostic in compiled.diagnostics] == list(reversed(PHASES))
+
+
+LIBRARY = """\
+format: 1
+library: {id: acme/common, title: Common}
+enums: {mode: {0: idle, 1: run}}
+"""
+MAP = """\
+format: 1
+map: {id: acme/oven, title: Oven, maker: Acme, class_prefix: Acme}
+uses: [acme/common]
+manual: {title: Manual, number: "1"}
+models: {M1: {}}
+groups:
+  - {id: all, name: All, registers: [{at: 1, name: Mode, enum: mode, access: r, source: "1"}]}
+"""
+
+
+def test_what_an_editor_has_not_saved_counts_instead_of_the_files(tmp_path: Path) -> None:
+    oven, common = tmp_path / "acme/oven.yaml", tmp_path / "acme/common.library.yaml"
+    unsaved = {oven: MAP, common: LIBRARY}
+    assert pipeline.compile_map(oven, unsaved).diagnostics == ()
+    broken = pipeline.compile_map(oven, unsaved | {common: LIBRARY.replace("mode", "state")})
+    assert [(each.span.file, each.span.line) for each in broken.diagnostics] == [(str(oven), 7)]
+    assert not list(tmp_path.iterdir())

@@ -16,7 +16,7 @@ from regscribe.compose.numbering import Numbering, writes_numbers
 from regscribe.compose.tree import at, cut, elements, in_file, members, text
 from regscribe.map_files import ENDINGS, LIBRARY, MAP, folder_of
 from regscribe.model import Diagnostic, Override
-from regscribe.source import Document, SourceNode
+from regscribe.source import Document, SourceNode, Texts
 
 __all__ = ["RULES", "Composed", "as_map", "compose", "is_library", "misplaced"]
 
@@ -69,8 +69,8 @@ def misplaced(library: Document, path: Path) -> list[Diagnostic]:
     return [Diagnostic(OTHER_ID, message, library.span((LIBRARY, "id")), f"call the file {name}, or correct the id")]
 
 
-def compose(document: Document, path: Path) -> Composed:
-    """The map of `document`, which lies at `path`, with all that it builds on."""
+def compose(document: Document, path: Path, unsaved: Texts | None = None) -> Composed:
+    """The map of `document`, which lies at `path`, with all that it builds on; `unsaved` as in `source.load`."""
     plain = members(document.root).keys().isdisjoint(COMPOSING) and not writes_numbers(document.root)
     if plain and not left_out(document.root):
         return Composed(document)
@@ -78,7 +78,7 @@ def compose(document: Document, path: Path) -> Composed:
     numbering = Numbering(findings, {})
     root = numbering.on_the_wire(in_file(document.root, document.name))
     own = LoadedFile(text(at(root, (MAP, "id"))), path, root)
-    loader = FileLoader(folder_of(path, own.id), findings, numbering)
+    loader = FileLoader(folder_of(path, own.id), findings, numbering, unsaved or {})
     part = _build(own, loader, (own,))
     files = tuple(loader.hashes.items())
     if part is None or findings.diagnostics:

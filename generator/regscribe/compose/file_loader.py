@@ -26,12 +26,14 @@ class FileLoader:
     """The folders that ids are looked up in, and what was read from them: the SHA-256 of each file by path.
 
     `empty` are the paths at which a file was looked for in vain: one that appears there would count from then on.
-    `folder` is that of the map itself. What comes with regscribe is looked for after it, and knows nothing of it.
+    `folder` is that of the map itself, `unsaved` what an editor holds instead of files.
+    What comes with regscribe is looked for after it, and knows nothing of it.
     """
 
     folder: Path
     findings: ComposeFindings
     numbering: Numbering
+    unsaved: source.Texts = field(default_factory=dict)
     shipped: Path = field(default_factory=shipped)
     hashes: dict[Path, str] = field(default_factory=dict)
     empty: set[Path] = field(default_factory=set)
@@ -41,7 +43,7 @@ class FileLoader:
         """The map or library whose id stands at `node`; None, with the reason among the findings, if there is none."""
         places = [self.shipped] if asker.shipped else [self.folder, self.shipped]
         paths = [folder / f"{node.value}{ENDINGS[kind]}" for folder in places]
-        found = list(filter(is_file, paths))
+        found = [path for path in paths if path in self.unsaved or is_file(path)]
         self.empty.update(paths[: paths.index(found[0])] if found else paths)
         if not found:
             where = source.display_name(paths[0])
@@ -54,7 +56,7 @@ class FileLoader:
         return self.known[path]
 
     def _read(self, path: Path, node: SourceNode, kind: str) -> LoadedFile | None:
-        document, found = source.load(path)
+        document, found = source.load(path, unsaved=self.unsaved)
         if document is not None:
             self.hashes[path] = document.content_hash
             found = schema.validate(document)

@@ -5,7 +5,7 @@
 """
 
 from regscribe.source.document import Document, Path, Plain, SourceNode, SourcePlace
-from regscribe.source.load import display_name, load, parse
+from regscribe.source.load import Texts, display_name, load, parse
 from regscribe.source.rules import RULES
 from regscribe.source.scalars import NumberFormError, resolve, shorten
 
@@ -17,6 +17,7 @@ __all__ = [
     "Plain",
     "SourceNode",
     "SourcePlace",
+    "Texts",
     "display_name",
     "load",
     "parse",

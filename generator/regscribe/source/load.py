@@ -4,6 +4,7 @@ import errno
 import hashlib
 import os
 import stat
+from collections.abc import Mapping
 from pathlib import Path as FilePath
 
 from regscribe.model import Diagnostic
@@ -15,6 +16,9 @@ from regscribe.source.scalars import shorten
 from regscribe.source.utf8 import check_characters, decode, normalise
 
 MAX_BYTES = 8 * 1024 * 1024
+
+Texts = Mapping[FilePath, str]
+"""Texts that count instead of the files at these paths: what an editor holds and has not saved."""
 
 _ADVICE = {
     errno.ENOENT: "check the path; `regscribe new MAKER/FAMILY` starts a map",
@@ -31,9 +35,13 @@ def display_name(path: FilePath) -> str:
     return "".join(character if character.isprintable() else "?" for character in text)
 
 
-def load(path: FilePath, *, escapes: bool = False) -> tuple[Document | None, list[Diagnostic]]:
-    """Read and parse a file; the rest as in `parse`."""
+def load(
+    path: FilePath, *, escapes: bool = False, unsaved: Texts | None = None
+) -> tuple[Document | None, list[Diagnostic]]:
+    """Read and parse a file, or its text in `unsaved`; the rest as in `parse`."""
     name = display_name(path)
+    if unsaved and path in unsaved:
+        return parse(unsaved[path], name=name, escapes=escapes)
     findings = Findings(name)
     try:
         data = _read(path, findings)
