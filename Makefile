@@ -10,11 +10,11 @@ COVERING := tests/conformance/test_cases.py tests/regscribe/cli/test_commands.py
 	$(addprefix tests/runtime/,wire registers planning operations driver)
 
 # what needs no programs by others; and of that what takes no more than a few seconds
-OURS := not wire and not interop
+OURS := not wire and not interop and not browser
 QUICK := not slow and $(OURS)
 
 .DEFAULT_GOAL := generate
-.PHONY: generate test test-all coverage test-wire test-interop test-versions check format bench conformance fuzz mutate sessions lock clean
+.PHONY: generate test test-all coverage test-wire test-interop test-browser test-versions check format bench conformance fuzz mutate sessions lock clean
 
 generate: $(INSTALLED) ## compile all maps; only what changed is written
 	@$(BIN)/regscribe generate
@@ -32,6 +32,10 @@ test-wire: $(INSTALLED) ## let clients by others talk to the simulated devices; 
 test-interop: $(INSTALLED) ## let the programs that exports are for read a simulated device; installs them (pip, npm, Debian packages)
 	$(BIN)/python tests/system/interop/install.py
 	$(BIN)/pytest -q -n 2 --dist loadfile -m interop tests/system/interop
+
+test-browser: $(INSTALLED) ## let Chromium show the pages that are made; installs it (Debian package)
+	$(BIN)/python tests/system/browser/install.py
+	$(BIN)/pytest -q -m browser tests/system/browser
 
 test-versions: ## run the tests of runtime and drivers with the oldest and newest pymodbus, on every Python that is here
 	$(PYTHON) tests/repository/versions.py

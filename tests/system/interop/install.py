@@ -112,7 +112,7 @@ def install(consumers: tuple[Consumer, ...]) -> None:
 def _debian(packages: tuple[str, ...]) -> None:
     by_hand = f"apt-get install --no-install-recommends {' '.join(packages)}"
     if os.geteuid() != 0 or not shutil.which("apt-get"):
-        sys.exit(f"the interop tests need programs that are not installed here; as root: {by_hand}")
+        sys.exit(f"the tests need programs that are not installed here; as root: {by_hand}")
     print(f"installing {', '.join(packages)}", flush=True)  # noqa: T201 (a program of its own)
     environment = {**os.environ, "DEBIAN_FRONTEND": "noninteractive", "RUNLEVEL": "1"}  # starts no service
     waiting = ["-o", f"DPkg::Lock::Timeout={PATIENCE}"]  # another test run may be installing as well
