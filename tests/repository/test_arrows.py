@@ -57,6 +57,7 @@ ROOMS = {
     "plugins": {"model", "visible", "draft", "losses"},
     "export": {"model", "dialects", "reference", "checks", "emit", "plugins", "visible", "losses", "files"}
     | {"planned_model", f"{RUNTIME}.planning"},
+    "register_browser": {"model", "emit", "export", "visible"},
     "evidence": {"model", "emit", "export"},
     "importers": {"model", "dialects", "source", "emit", "evidence", "files", "draft", "plugins", "visible"},
     "files": {"model", "source", "schema", "visible"},
@@ -67,7 +68,7 @@ ROOMS = {
     "tools": {"model", "source", "schema", "files", "visible", "emit", "pictures"} | WHOLE,
     "cli": {"model", "reference", "source", "schema", "compose", "lower", "checks", "emit", "pictures", "evidence"}
     | {"plugins", "simulate", "pipeline", "files", "tools", "map_files", "visible", "draft", "losses"}
-    | {"planned_model", "breaking"}
+    | {"planned_model", "breaking", "register_browser"}
     | WHOLE,
 }
 """Which other rooms a room may import, besides the vocabulary in `regscribe_runtime.values`."""

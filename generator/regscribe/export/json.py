@@ -90,7 +90,7 @@ def _tree(member: Register | Array) -> Json:
 def _fields(record: Any, *besides: str) -> dict[str, Json]:  # noqa: ANN401 (any dataclass or named tuple of the model)
     """The fields of a record, less PLACES and those in `besides`."""
     names = getattr(record, "_fields", None) or [item.name for item in fields(record)]
-    return {name: _plain(getattr(record, name)) for name in names if name not in PLACES and name not in besides}
+    return {name: plain(getattr(record, name)) for name in names if name not in PLACES and name not in besides}
 
 
 def _command(command: Command) -> Json:
@@ -113,7 +113,7 @@ def _register(register: Register) -> Json:
 
 def _view(view: View, at: int) -> Json:
     place = _place(view.space, view.address(at))
-    return _fields(view, "offset", "order") | place | {"word_order": _plain(view.order)}
+    return _fields(view, "offset", "order") | place | {"word_order": plain(view.order)}
 
 
 def _place(space: Space, address: int) -> Json:
@@ -124,7 +124,7 @@ def _place(space: Space, address: int) -> Json:
 
 def _order(order: OrderCases) -> Json:
     by_code = order.by_code()
-    return {"register": by_code[0], "codes": _plain(by_code[1])} if by_code else _fields(order)
+    return {"register": by_code[0], "codes": plain(by_code[1])} if by_code else _fields(order)
 
 
 def _test(test: Is) -> Json:
@@ -144,7 +144,7 @@ def _limit(limit: Limit) -> Json:
         return {"text": str(limit)}
     if isinstance(limit, Ref):
         return _fields(limit)
-    return {"value": number(limit)} if isinstance(limit, Number) else {"term": _plain(limit)}
+    return {"value": number(limit)} if isinstance(limit, Number) else {"term": plain(limit)}
 
 
 WRITERS: dict[type, Callable[[Any], Json]] = {
@@ -154,7 +154,7 @@ WRITERS: dict[type, Callable[[Any], Json]] = {
     Is: _test,
     OrderCases: _order,
     Interval: lambda interval: {"low": _limit(interval.low), "high": _limit(interval.high)},
-    tuple: lambda items: [_plain(item) for item in _as_printed(items)],
+    tuple: lambda items: [plain(item) for item in _as_printed(items)],
     Model: _model,
     Command: _command,
     IdentityRule: lambda rule: _fields(rule.identity) | {"models": list(rule.models)},
@@ -169,7 +169,8 @@ def _as_printed(items: tuple[Any, ...]) -> tuple[Any, ...]:
     return (space, *map(space.plain, items[1:])) if space else items
 
 
-def _plain(value: Any) -> Json:  # noqa: ANN401 (any value of the model)
+def plain(value: Any) -> Json:  # noqa: ANN401 (any value of the model)
+    """Return a value of the model as the export has it."""
     if isinstance(value, PythonEnum):
         return value.value
     if value is None or isinstance(value, str | bool | int):

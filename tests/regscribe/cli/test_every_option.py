@@ -26,6 +26,7 @@ USUAL: dict[str, list[str]] = {
     "new": ["acme/new"],
     "export": ["acme/oven", "--format", "csv"],
     "import": ["table.csv"],
+    "browse": ["acme/oven"],
     "compare": ["acme/oven", "acme/oven"],
     "breaking": ["acme/oven", "--against", "maps"],
     "coverage": [],

@@ -1,0 +1,34 @@
+"""`regscribe browse`: all registers of maps as one HTML file, with a search and a calculator."""
+
+from pathlib import Path
+
+import click
+
+from regscribe import register_browser
+from regscribe.cli.shared.compiled_maps import compiled_maps
+from regscribe.cli.shared.map_arguments import find_maps
+from regscribe.cli.shared.output import raised_as, tell
+from regscribe.files import FileError, save
+
+
+@click.command(
+    epilog="Example: regscribe browse fdc/series-100 -o registers.html\n\n"
+    "Exit code 0: done, 1: errors in a map (nothing is written), 2: wrong usage.",
+)
+@click.argument("maps", nargs=-1, metavar="[MAP]...")
+@click.option(
+    "-o", "--out", type=click.Path(path_type=Path), metavar="FILE", help="Where it goes; else standard output."
+)
+def command(*, maps: tuple[str, ...], out: Path | None) -> int:
+    """Make one HTML file that shows the registers of maps: search, details, and a calculator raw <-> value.
+
+    MAP is a map file, a folder that is searched for *.yaml, or the id of a map (fdc/series-100). Without MAP: maps/.
+    The file needs no server and no network; any browser opens it from disk.
+    """
+    text = register_browser.page(compiled_maps(find_maps(maps), nothing="nothing was written"))
+    if out is None:
+        tell(text)
+    else:
+        with raised_as(click.ClickException, FileError):
+            save(out, text)
+    return 0
