@@ -15,7 +15,7 @@ from .strategies import FUZZ, STEADY, maps
 from .suite import Built, Json, diagnose, errors_of, module_of, whole_map
 from .trial import Trial
 
-FEW = 100
+FEW = 48
 
 
 def disagreements(parts: Json, seed: int) -> list[str]:

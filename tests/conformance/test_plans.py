@@ -26,7 +26,7 @@ from .suite import FUNCTIONS, Built, Case, Json, build, cases, diagnose, errors_
 from .trial import Trial
 from .wire import Memory, Server
 
-FEW, FEW_IDS = 30, 4
+FEW, FEW_IDS = 16, 4
 SOUND = [case for case in cases() if not case.refused]
 TCP, SERIAL = ("--tcp",), ("--baud", "9600", "--format", "8N1")
 """The lines that drivers talk over here, as the command is told."""

@@ -29,7 +29,7 @@ HEAD = {
     "manual": {"title": "Manual", "number": "1"},
 }
 PLACE = {"at": "10.0.0.7:502", "name": "oven", "unit": "3"}
-FEW = 30
+FEW = 16
 STEP = 8
 INTEGERS = ("uint16", "int16", "uint32", "int32", "uint64", "int64")
 FLOATS = ("float32", "float64")

@@ -112,7 +112,7 @@ def known_givens(register_map: RegisterMap, model: Model, values: Mapping[str, G
             raise SimulatorError(message)
     inside = {register.block for register in model.registers}
     bases = {block.given for block in register_map.blocks if block.id in inside}
-    used = {*_used_givens(model), *bases} - values.keys()
+    used = {*_used_givens(model), *bases} - values.keys() if declared else set()
     missing = [given for given in register_map.givens if given.id in used and given.default is None]
     if missing:
         raise _missing(missing[0], model)
