@@ -90,6 +90,7 @@ LIBRARIES = {
     "defusedxml": {"importers"},
     "serial": {f"{RUNTIME}.link.streams", "regscribe.simulate.line.serial_ports"},
     "hypothesis": {"testing"},
+    "markdown_it": {"register_browser"},
 }
 """Which rooms, or modules, may import a library."""
 

@@ -22,7 +22,7 @@ from regscribe.export.json import plain
 from regscribe.model import Model, RegisterMap
 from regscribe.register_browser.exact import exact
 from regscribe.register_browser.folding import fold
-from regscribe.register_browser.said import said
+from regscribe.register_browser.said import about, said
 from regscribe.register_browser.sharing import shared
 from regscribe.register_browser.spoken_conditions import with_words
 
@@ -48,6 +48,7 @@ def _map(register_map: RegisterMap) -> Json:
             anchor = found.anchor(kind, pattern(one[key]))
             one |= {"anchor": anchor, "said": spoken.get(anchor, {})}
     return {name: value for name, value in facts.items() if name not in NOT_SHOWN} | {
+        "about": about(found),
         "models": [{name: getattr(one, name) for name in OF_MODELS} for one in register_map.models],
         "registers": registers,
         "groups": _merged(register_map, lambda one: _keyed(one, "groups")),

@@ -1,33 +1,68 @@
-r"""What the reference in Markdown says of registers and commands, as runs of text that need no renderer.
+"""What the reference in Markdown says of a map, its registers and its commands, as runs of text (see `inline_text`).
 
-A run is a text, or `{"text": ..}` with `code` or `strong` where it is such, and `to`, the anchor that it links to; a
-line break is `"\n"`.
+The page draws pictures and computes addresses of elements itself; it has all the rest from here.
 """
 
-import html
-import re
-from collections.abc import Iterable
+from collections.abc import Container, Iterable, Sequence
+from dataclasses import replace
 from typing import Any
 
+from regscribe.emit.markdown.computed import computed
 from regscribe.emit.markdown.context import PageContext
 from regscribe.emit.markdown.entries import commands, sections
-from regscribe.emit.markdown.page_values import RegisterEntry, Titled
+from regscribe.emit.markdown.escape import Md, escape, prose
+from regscribe.emit.markdown.examples import examples
+from regscribe.emit.markdown.page_values import PageTable, RegisterEntry, Titled, table
+from regscribe.emit.markdown.programs import programs
+from regscribe.emit.markdown.protocol import exceptions, faults, latency, line
+from regscribe.emit.markdown.transmission import conditions, givens, identity, unit_notes, units, views
+from regscribe.emit.outline import Leaf, leaves, pattern
+from regscribe.emit.words import one_line
+from regscribe.model import Erratum, FrameExample, Register, TimingExample, ValueExample
+from regscribe.register_browser.errata import concerning
+from regscribe.register_browser.inline_text import Runs, runs
 
 Json = Any
-_RUNS = re.compile(
-    r"\[(?P<text>(?:\\.|`[^`]*`|[^\]\\`])*)\]\(#(?P<to>[^)]*)\)|`(?P<code>[^`]*)`|\*\*(?P<strong>.*?)\*\*|(?P<br><br>)"
-    r"|(?P<plain>(?:\\.|[^\\`*\[<])+)|(?P<other>.)",
-    re.DOTALL,
-)
-_ESCAPED = re.compile(r"\\([!-/:-@\[-`{-~])")
-DRAWN = ("Address of every element", "Values", "Bits", "Views")
-"""Tables that the page draws from the data itself."""
 
 
 def said(context: PageContext) -> dict[str, Json]:
-    """Return by anchor what is said: paragraphs, danger, facts (pairs), tables and remarks."""
-    entries = [entry for section in sections(context) for entry in section.entries] + [*commands(context)]
-    return {entry.anchor: _entry(entry) for entry in entries if entry.anchor}
+    """Return by anchor what is said of registers and commands; of an array at its first register."""
+    found: dict[str, Json] = {}
+    array: list[Runs] = []
+    for entry in (entry for section in sections(context) for entry in section.entries):
+        if entry.anchor:
+            found[entry.anchor] = _entry(entry) | ({"array": array} if array else {})
+            array = []
+        else:
+            array = [*array, *map(_runs, (entry.name, entry.summary, *entry.paragraphs))]
+    concerned = _concerned(context)
+    found = {anchor: facts | concerned[anchor] for anchor, facts in found.items()}
+    return found | {entry.anchor: _entry(entry) for entry in commands(context)}
+
+
+def about(context: PageContext) -> Json:
+    """Return what is said of a map as a whole: `paragraphs`, `programs`, and `tables`, to which links lead."""
+    register_map = context.map
+    shown = {
+        "Which model answers": identity(context),
+        "Serial line and limits": line(context),
+        "From the end of a request to the start of its answer": latency(context),
+        "What a driver must be told": givens(context),
+        "Conditions": conditions(context),
+        "Units that depend on other registers": units(context),
+        "What units stand for": unit_notes(context),
+        "Computed values": computed(context),
+        "When a request is refused": faults(context),
+        "What the device means by its exception codes": exceptions(context),
+        "Errata": _errata(register_map.errata),
+    }
+    tables = (*views(context), *(Titled(title, one) for title, one in shown.items()), *_examples(context))
+    texts = (register_map.description, *register_map.notes)
+    return {
+        "paragraphs": [runs(prose(text)) for text in texts if text],
+        "tables": [_table(one) for one in tables if one.table.rows],
+        "programs": [{"name": one.name, "anchor": one.anchor} | _entry(one) for one in programs(context)],
+    }
 
 
 def _entry(entry: RegisterEntry) -> Json:
@@ -35,48 +70,59 @@ def _entry(entry: RegisterEntry) -> Json:
         "summary": runs(entry.summary),
         "paragraphs": [*map(runs, entry.paragraphs)],
         "danger": [*map(runs, entry.danger)],
-        "facts": [[*map(runs, row)] for row in entry.facts.rows],
-        "tables": [_table(one) for one in entry.tables if not one.title.startswith(DRAWN)],
+        "facts": [[*map(_runs, row)] for row in entry.facts.rows],
+        "tables": [_table(one) for one in entry.tables if not one.folded],
         "remarks": [*map(runs, entry.remarks)],
     }
     return {key: value for key, value in found.items() if value}
 
 
 def _table(one: Titled) -> Json:
-    return {
-        "title": runs(one.title),
-        "headers": [*map(runs, one.table.headers)],
-        "rows": [[*map(runs, row)] for row in one.table.rows],
+    rows = [[*map(_runs, row)] for row in one.table.rows]
+    return {"title": _runs(one.title), "headers": [*map(_runs, one.table.headers)], "rows": rows}
+
+
+def _runs(text: str) -> Runs:
+    """Return the runs of a text, which is plain unless it is ready Markdown."""
+    return runs(text if isinstance(text, Md) else escape(text))
+
+
+def _concerned(context: PageContext) -> dict[str, Json]:
+    """Return by anchor the tables of worked examples and of errata that concern a register."""
+    return {context.anchor("register", leaf.register.key): _tables(context, leaf) for leaf in leaves(context.nodes)}
+
+
+def _tables(context: PageContext, leaf: Leaf) -> Json:
+    shared = leaf.register
+    elements = [one for model, _ in shared.versions for one in context.elements[model.name, shared.key]]
+    errata = context.map.errata
+    places = concerning(errata, elements)
+    found = {
+        "examples": [_table(one) for one in _examples(context, shared.key, elements)],
+        "errata": [_table(Titled("", _errata(errata[place] for place in places)))] if places else [],
     }
+    return {key: value for key, value in found.items() if value}
 
 
-def runs(markdown: str) -> list[Json]:
-    """Return Markdown of our own as runs."""
-    found: list[Json] = []
-    for part in _RUNS.finditer(markdown):
-        run = _run(part)
-        if isinstance(run, str) and found and isinstance(found[-1], str):
-            found[-1] += run
-        else:
-            found.append(run)
-    return found
+def _examples(context: PageContext, key: str = "", elements: Sequence[Register] = ()) -> tuple[Titled, ...]:
+    """Return the tables of worked examples: all of a map, or those that read or write a register."""
+    register_map = context.map
+    if key:
+        addresses = {view.address(one.at) for one in elements for view in one.views}
+        kept = tuple(one for one in register_map.examples if _shows(one, key, addresses))
+        context = replace(context, map=replace(register_map, examples=kept))
+    found = examples(context)
+    return tuple(replace(one, title=f"Worked examples: {one.title.lower()}") for one in found)
 
 
-def _run(part: re.Match[str]) -> Json:
-    if part["to"] is not None:
-        inner = runs(part["text"])
-        code = len(inner) == 1 and isinstance(inner[0], dict) and "code" in inner[0]
-        return {"text": _flat(inner), "to": part["to"]} | ({"code": True} if code else {})
-    if part["code"] is not None:
-        return {"text": part["code"], "code": True}
-    if part["strong"] is not None:
-        return {"text": _flat(runs(part["strong"])), "strong": True}
-    return "\n" if part["br"] else _unescaped(part["plain"] or part["other"])
+def _shows(example: ValueExample | FrameExample | TimingExample, key: str, addresses: Container[int]) -> bool:
+    if isinstance(example, ValueExample):
+        return pattern(example.register) == key
+    if isinstance(example, TimingExample):
+        return False
+    return example.address in addresses or key in {pattern(path) for path, _ in example.writes}
 
 
-def _flat(found: Iterable[Json]) -> str:
-    return "".join(run if isinstance(run, str) else run["text"] for run in found)
-
-
-def _unescaped(text: str) -> str:
-    return html.unescape(_ESCAPED.sub(r"\1", text))
+def _errata(errata: Iterable[Erratum]) -> PageTable:
+    rows = ((one_line(one.where), *map(prose, (one.printed, one.read, one.why))) for one in errata)
+    return table(("Where", "The manual says", "Read as", "Why"), rows)
