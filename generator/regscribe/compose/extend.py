@@ -1,6 +1,6 @@
 """A map on the basis of another: the base with its models renamed, less what is dropped, changed, and added to."""
 
-from regscribe.compose.findings import CHANGED_IN_PASSING, NO_MODEL, RENUMBERS_NOTHING, ComposeFindings, suggestion
+from regscribe.compose.findings import CHANGED_IN_PASSING, NO_MODEL, RENUMBERS_NOTHING, ComposeFindings
 from regscribe.compose.merge import LISTS, append, laid_over, replace
 from regscribe.compose.overrides import Changes
 from regscribe.compose.renaming import Renaming, renumbered
@@ -41,7 +41,7 @@ def _with_models(base: SourceNode, own: SourceNode, findings: ComposeFindings) -
         if text(origin) not in have:
             message = f"the base has no model `{text(origin)}`, which `{name}` is to be"
             other = ("the models of the base", key_place(base, "models"))
-            findings.add(NO_MODEL, message, origin.place, suggestion(text(origin), have), other)
+            findings.unknown(NO_MODEL, message, origin, have, other)
             continue
         names[text(origin)].append(name)
         model = cut(node, "from")

@@ -4,7 +4,7 @@ from dataclasses import dataclass, field
 from pathlib import Path
 
 from regscribe import schema, source
-from regscribe.compose.findings import NO_FILE, OTHER_ID, WRONG_FILE, ComposeFindings, suggestion
+from regscribe.compose.findings import NO_FILE, OTHER_ID, WRONG_FILE, ComposeFindings
 from regscribe.compose.numbering import Numbering
 from regscribe.compose.tree import in_file, key_place, text
 from regscribe.map_files import ENDINGS, LIBRARY, ids_in, is_file, shipped
@@ -48,7 +48,7 @@ class FileLoader:
         if not found:
             where = source.display_name(paths[0])
             message = f"there is no {kind} `{node.value}`: no file {where}, and none comes with regscribe"
-            self.findings.add(NO_FILE, message, node.place, suggestion(str(node.value), ids_in(places, kind)))
+            self.findings.unknown(NO_FILE, message, node, ids_in(places, kind))
             return None
         path = found[0]
         if path not in self.known:

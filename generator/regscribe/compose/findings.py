@@ -2,9 +2,9 @@
 
 from collections.abc import Iterable
 from dataclasses import dataclass, field
-from difflib import get_close_matches
 
 from regscribe.model import Diagnostic, Related, Rule
+from regscribe.model.nearest import nearest
 from regscribe.source import SourceNode, SourcePlace, shorten
 
 _LISTED = 12
@@ -70,10 +70,27 @@ class ComposeFindings:
 
     diagnostics: list[Diagnostic] = field(default_factory=list)
 
-    def add(self, rule: str, message: str, place: SourcePlace, advice: str, *related: tuple[str, SourcePlace]) -> None:
+    def add(
+        self,
+        rule: str,
+        message: str,
+        place: SourcePlace,
+        advice: str,
+        *related: tuple[str, SourcePlace],
+        replacement: str = "",
+    ) -> None:
         """Add a diagnostic with what it is related to: descriptions and places."""
         others = tuple(Related(what, where.span("")) for what, where in related)
-        self.diagnostics.append(Diagnostic(rule, message, place.span(""), advice, related=others))
+        said = Diagnostic(rule, message, place.span(""), advice, related=others, replacement=replacement)
+        self.diagnostics.append(said)
+
+    def unknown(
+        self, rule: str, message: str, node: SourceNode, known: Iterable[str], *related: tuple[str, SourcePlace]
+    ) -> None:
+        """Report a name that nothing has, with the one that was probably meant."""
+        name, names = str(node.value), list(dict.fromkeys(known))
+        meant = nearest(name, names)
+        self.add(rule, message, node.place, suggestion(name, names), *related, replacement=meant)
 
     def reason(self, rule: str, node: SourceNode | None, subject: str) -> None:
         """Report a reason that is blank."""
@@ -84,7 +101,7 @@ class ComposeFindings:
 def suggestion(name: str, known: Iterable[str]) -> str:
     """A guess which of the known names was meant, and some of them."""
     names = list(dict.fromkeys(known))
-    near = get_close_matches(name[:100], names, n=1)
-    guess = f"did you mean `{near[0]}`? " if near else ""
+    near = nearest(name, names)
+    guess = f"did you mean `{near}`? " if near else ""
     more = f" and {len(names) - _LISTED} more" if len(names) > _LISTED else ""
     return f"{guess}there are: {', '.join(map(shorten, names[:_LISTED]))}{more}" if names else "there are none"

@@ -6,6 +6,7 @@ from regscribe.compose.merge import TABLES, laid_over, replace
 from regscribe.compose.numbering import Numbering
 from regscribe.compose.tree import cut, in_file, key_place, listing, mapping, members, put, remove
 from regscribe.model import Diagnostic
+from regscribe.model.nearest import nearest
 from regscribe.source import Document, SourceNode
 
 _LISTS = ("errata", "notes")
@@ -27,7 +28,7 @@ def with_libraries(root: SourceNode, libraries: list[LoadedFile], findings: Comp
         message = f"there is no command `{name}` in a library that could be left out"
         where = key_place(root.child("commands") or root, name)
         advice = f"commands of a base are dropped by `drop`; {suggestion(name, every)}"
-        findings.add(LEAVES_NOTHING_OUT, message, where, advice)
+        findings.add(LEAVES_NOTHING_OUT, message, where, advice, replacement=nearest(name, every))
     own = _without(root, nulls)
     advice = "use that one, or rename yours"
     merged = laid_over(below, own, findings, _LISTS, owner="a library that it uses", advice=advice)

@@ -7,7 +7,7 @@ from collections.abc import Iterable
 from dataclasses import dataclass
 from typing import NamedTuple
 
-from regscribe.compose.findings import NO_NUMBER, UNKNOWN_NOTATION, ComposeFindings, suggestion
+from regscribe.compose.findings import NO_NUMBER, UNKNOWN_NOTATION, ComposeFindings
 from regscribe.compose.tree import at, cut, elements, listing, mapping, members, put, text
 from regscribe.source import SourceNode
 
@@ -73,7 +73,7 @@ class Numbering:
         if text(name) not in {WIRE, MODICON}:
             known = [text(each.child("name")) for each in elements(root.child("notations"))]
             message = f"there is no notation `{text(name)}`"
-            self.findings.add(UNKNOWN_NOTATION, message, name.place, suggestion(text(name), [MODICON, WIRE, *known]))
+            self.findings.unknown(UNKNOWN_NOTATION, message, name, [MODICON, WIRE, *known])
         return _MODICON if text(name) == MODICON else ()
 
     def with_notations(self, root: SourceNode) -> SourceNode:

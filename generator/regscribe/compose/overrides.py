@@ -4,7 +4,7 @@ import re
 from dataclasses import dataclass, field
 from functools import partial
 
-from regscribe.compose.findings import CHANGES_NOTHING, DROPS_NOTHING, NO_REASON, NO_TARGET, ComposeFindings, suggestion
+from regscribe.compose.findings import CHANGES_NOTHING, DROPS_NOTHING, NO_REASON, NO_TARGET, ComposeFindings
 from regscribe.compose.patch import Patch
 from regscribe.compose.tree import Location, at, edit, elements, id_of, kept, members, registers, remove, text
 from regscribe.model import Override
@@ -53,7 +53,7 @@ class Changes:
         for each in wanted:
             if text(each) not in have:
                 message = f"the base has no {table} of `{text(each)}`"
-                self.findings.add(DROPS_NOTHING, message, each.place, suggestion(text(each), have), self.at_base)
+                self.findings.unknown(DROPS_NOTHING, message, each, have, self.at_base)
             self.records.append(Override(table, text(each), "", (), each.place.span("")))
         gone = {text(each) for each in wanted}
         self.root = kept(self.root, table, lambda each: text(each.child(key)) not in gone)
@@ -123,8 +123,8 @@ class Changes:
             known = list(registers(self.root))
         found = [location for name, location in known if name == text(node)]
         if not found:
-            advice = suggestion(text(node), [name for name, _ in known])
-            self.findings.add(rule, f"the base has no {kind} `{text(node)}`", node.place, advice, self.at_base)
+            message = f"the base has no {kind} `{text(node)}`"
+            self.findings.unknown(rule, message, node, [name for name, _ in known], self.at_base)
         return found
 
 

@@ -137,11 +137,19 @@ class Value(Keyed):
         return str(self.path[-1]) if self.path else ""
 
     def report(
-        self, rule: str, message: str, *, remedy: str = "", at_key: bool = False, related: tuple[Related, ...] = ()
+        self,
+        rule: str,
+        message: str,
+        *,
+        remedy: str = "",
+        at_key: bool = False,
+        related: tuple[Related, ...] = (),
+        replacement: str = "",
     ) -> None:
         """Report a mistake at this value (or at its key), unless the same rule spoke there already."""
         span = self.key_span if at_key else self.span
-        self.context.found.setdefault((rule, span), Diagnostic(rule, message, span, help=remedy, related=related))
+        said = Diagnostic(rule, message, span, help=remedy, related=related, replacement=replacement)
+        self.context.found.setdefault((rule, span), said)
 
     def child(self, key: str) -> "Value | None":
         """The value of a key; None where the key is absent or null."""

@@ -3,13 +3,13 @@
 import re
 from collections.abc import Callable, Collection, Iterable
 from dataclasses import replace
-from difflib import get_close_matches
 from fractions import Fraction
 
 from regscribe.lower.node import ZERO, Value, brief
 from regscribe.lower.rules import BAD_VERSION, NO_IDENTIFIER, REVERSED, WRONG_SORT
 from regscribe.model import parse, show
 from regscribe.model.identifiers import snake, unindexed
+from regscribe.model.nearest import nearest
 
 _LISTED = 12
 _NUMBER = r"([+-]?[0-9]{1,30}(?:\.[0-9]{1,30})?(?:[eE][+-]?[0-9]{1,3})?)"
@@ -34,12 +34,25 @@ def unknown(
     if (rule, node.key_span if at_key else node.span) in node.context.found:
         return
     names = list(dict.fromkeys(known))
-    near = get_close_matches(brief(name), names, n=1)
+    near = nearest(name, names)
     place = f" in `{of}`" if of else ""
-    guess = f"did you mean `{near[0]}`? " if near else ""
+    guess = f"did you mean `{near}`? " if near else ""
     more = f" and {len(names) - _LISTED} more" if len(names) > _LISTED else ""
     listed = f"there are: {', '.join(map(brief, names[:_LISTED]))}{more}" if names else "there are none"
-    node.report(rule, f"there is no {what} `{brief(name)}`{place}", remedy=f"{guess}{listed}", at_key=at_key)
+    said = f"there is no {what} `{brief(name)}`{place}"
+    meant = _in_place_of(name, near, written=node.key if at_key else node.value)
+    node.report(rule, said, remedy=f"{guess}{listed}", at_key=at_key, replacement=meant)
+
+
+def _in_place_of(name: str, near: str, *, written: object) -> str:
+    """What is written, with the name that was meant in it: `register.field` holds two; empty for no text."""
+    if not near or not isinstance(written, str):
+        return ""
+    before, dot, after = written.partition(f"{name}.") if written.startswith(f"{name}.") else ("", "", "")
+    if dot:
+        return f"{near}.{after}"
+    before, found, after = written.rpartition(name)
+    return f"{before}{near}" if found and not after and before[-1:] in {"", "."} else ""
 
 
 def known_name(node: Value, rule: str, what: str, known: Collection[str], *, of: str = "") -> str:

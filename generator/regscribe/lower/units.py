@@ -1,7 +1,6 @@
 """Units: symbols that a map may use, and those that differ by case."""
 
 from collections.abc import Iterable
-from difflib import get_close_matches
 
 from regscribe.lower.conditions import cases_of
 from regscribe.lower.node import Value, brief
@@ -9,6 +8,7 @@ from regscribe.lower.rules import UNKNOWN_UNIT
 from regscribe.lower.scope import Scope
 from regscribe.lower.texts import known_name
 from regscribe.model import Cases, always
+from regscribe.model.nearest import nearest
 from regscribe.model.units import KNOWN_UNITS, meant_unit
 from regscribe.schema import inline
 
@@ -48,10 +48,10 @@ def unit_at(node: Value, scope: Scope) -> Cases[str]:
 def _symbol(node: Value | None, scope: Scope, by_case: Iterable[str] = ()) -> str:
     name = node.text() if node else ""
     if node and name and name not in KNOWN_UNITS and name not in (own := own_units(scope.map)):
-        near = [meant_unit(name)] if meant_unit(name) else get_close_matches(name, (*by_case, *own, *KNOWN_UNITS), n=1)
-        guess = f"did you mean `{near[0]}`? Else " if near else ""
+        near = meant_unit(name) or nearest(name, (*by_case, *own, *KNOWN_UNITS))
+        guess = f"did you mean `{near}`? Else " if near else ""
         remedy = f"{guess}declare it under `units:`, as {inline(name)}: {{}}"
-        node.report(UNKNOWN_UNIT, f"there is no unit `{brief(name)}`", remedy=remedy)
+        node.report(UNKNOWN_UNIT, f"there is no unit `{brief(name)}`", remedy=remedy, replacement=near)
     return name
 
 

@@ -39,7 +39,10 @@ class Related:
 
 @dataclass(frozen=True, slots=True)
 class Diagnostic:
-    """One finding: a stable rule id, what is wrong with the numbers in it, where, and what to do."""
+    """One finding: a stable rule id, what is wrong with the numbers in it, where, and what to do.
+
+    `replacement` is what was probably meant by the name that stands at `span`; empty where nothing is like it.
+    """
 
     rule: str
     message: str
@@ -47,6 +50,7 @@ class Diagnostic:
     help: str = ""
     severity: Severity = Severity.ERROR
     related: tuple[Related, ...] = ()
+    replacement: str = ""
 
 
 @dataclass(frozen=True, slots=True)

@@ -4,9 +4,9 @@ import re
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from decimal import Decimal
-from difflib import get_close_matches
 from typing import TYPE_CHECKING, Any
 
+from regscribe.model.nearest import nearest
 from regscribe.schema import rules
 from regscribe.schema.wording import describe, example, title
 
@@ -46,6 +46,7 @@ class Complaint:
     """One mistake: `path` leads to the value, or (`at_key`) to its key.
 
     Of complaints of one rule at one place with the same `subject` (None: its message), the first is shown.
+    `replacement` is the key or the word that was probably meant.
     """
 
     rule: str
@@ -54,6 +55,7 @@ class Complaint:
     advice: str
     at_key: bool = False
     subject: str | None = None
+    replacement: str = ""
 
 
 @dataclass(frozen=True, slots=True)
@@ -103,21 +105,21 @@ def _unknown_keys(error: Violation) -> Iterator[Complaint]:
         if key in known or any(re.search(pattern, key) for pattern in patterns):
             continue
         shown, path = describe(key), (*error.path, key)
-        if "x-key" in schema and not get_close_matches(key[:100].lower(), known, n=1):
+        if "x-key" in schema and not nearest(key.lower(), known):
             form = schema["x-key"]
             said = f"{shown} is not in the form of {form['title']}: {form['description']}"
             yield Complaint(rules.WRONG_FORM, path, said, example(form), at_key=True)
         else:
             said = f"unknown key {shown} in {title(schema)}"
             meant = _meant(key, schema["properties"], error.instance)
-            yield Complaint(rules.UNKNOWN_KEY, path, said, meant, at_key=True)
+            advice = f"did you mean `{meant}`?" if meant else f"the keys here are: {', '.join(known)}"
+            yield Complaint(rules.UNKNOWN_KEY, path, said, advice, at_key=True, replacement=meant)
 
 
 def _meant(key: str, known: Mapping[str, Mapping[str, Any]], given: Mapping[str, Any]) -> str:
     """Guess the key that was meant: one that other tools call so (best one that is not given), or spelled nearly so."""
     also = [name for name, details in known.items() if key.lower() in details.get("x-also", ())]
-    near = sorted(also, key=given.__contains__) or get_close_matches(key[:100].lower(), known, n=1)
-    return f"did you mean `{near[0]}`?" if near else f"the keys here are: {', '.join(known)}"
+    return min(also, key=given.__contains__, default="") or nearest(key.lower(), known)
 
 
 def _missing_keys(error: Violation) -> Iterator[Complaint]:
@@ -186,10 +188,14 @@ def _not_allowed(error: Violation) -> Complaint:
         said = f"{title(error.schema)} must be {_COMPARISONS[kind]} {value}; this is {describe(error.instance)}"
         return Complaint(rules.VALUE_NOT_ALLOWED, error.path, said, example(error.schema))
     choices = [str(choice) for choice in (value if kind == "enum" else [value])]
-    near = get_close_matches(str(error.instance)[:100].lower(), choices, n=1) if isinstance(error.instance, str) else []
+    near = nearest(error.instance.lower(), choices) if isinstance(error.instance, str) else ""
     allowed, instead = ", ".join(f"`{choice}`" for choice in choices), _instead(error)
     said = f"{describe(error.instance)} is not allowed for {title(error.schema)}"
     if not instead or len(choices) <= _LISTED:
         said += f"; allowed: {allowed}"
-    advice = instead or (f"did you mean `{near[0]}`?" if near else "write one of the allowed words")
-    return Complaint(rules.VALUE_NOT_ALLOWED, error.path, said, advice if kind == "enum" else f"write {allowed}")
+    advice = instead or (f"did you mean `{near}`?" if near else "write one of the allowed words")
+    if kind != "enum":
+        return Complaint(rules.VALUE_NOT_ALLOWED, error.path, said, f"write {allowed}")
+    word = instead.removeprefix("write ").strip("`")
+    meant = word if word in choices else "" if instead else near
+    return Complaint(rules.VALUE_NOT_ALLOWED, error.path, said, advice, replacement=meant)

@@ -26,7 +26,8 @@ def validate(document: Document, *, language: str = MAP) -> list[Diagnostic]:
         for complaint in islice(complaints(violation(error)), MAX_ERRORS):
             find = document.key_span if complaint.at_key else document.span
             span = find(complaint.path)
-            diagnostic = Diagnostic(complaint.rule, complaint.message, span, complaint.advice)
+            said = complaint.rule, complaint.message, span, complaint.advice
+            diagnostic = Diagnostic(*said, replacement=complaint.replacement)
             subject = complaint.message if complaint.subject is None else complaint.subject
             found.setdefault((complaint.rule, span, subject), diagnostic)
     ordered = sorted(found.values(), key=lambda diagnostic: (diagnostic.span, diagnostic.rule, diagnostic.message))

@@ -85,10 +85,11 @@ def test_the_tally_names_errors_and_warnings() -> None:
 
 def test_json_holds_every_part_of_a_diagnostic() -> None:
     span = Span("m.yaml", 2, 3, 2, 6)
-    one = diagnostic(span, related=(Related("other", Span("m.yaml", 1, 1, 1, 4)),), help="move")
+    one = diagnostic(span, related=(Related("other", Span("m.yaml", 1, 1, 1, 4)),), help="move", replacement="on")
     place = {"file": "m.yaml", "line": 2, "column": 3, "end_line": 2, "end_column": 6}
     other = {"message": "other", "file": "m.yaml", "line": 1, "column": 1, "end_line": 1, "end_column": 4}
     message = {"rule": "RS0203", "severity": "error", "message": "`two` overlaps `one` at 12", "help": "move"}
+    message["replacement"] = "on"
     assert json.loads(as_json([one])) == {
         "format": 1,
         "errors": 1,
@@ -124,6 +125,16 @@ def test_sarif_places_results_and_describes_their_rules() -> None:
         "region": {"startLine": 2, "startColumn": 3, "endLine": 2, "endColumn": 6},
     }
     assert result["relatedLocations"][0]["physicalLocation"]["artifactLocation"]["uri"] == "file:///m.yaml"
+
+
+def test_sarif_says_what_to_write_in_place_of_a_name_as_yaml_reads_it() -> None:
+    one = diagnostic(Span("m.yaml", 2, 3, 2, 6), replacement="null")
+    (fix,) = json.loads(as_sarif([one], {}))["runs"][0]["results"][0]["fixes"]
+    (change,) = fix["artifactChanges"]
+    region = {"startLine": 2, "startColumn": 3, "endLine": 2, "endColumn": 6}
+    assert change["artifactLocation"] == {"uri": "m.yaml"}
+    assert change["replacements"] == [{"deletedRegion": region, "insertedContent": {"text": "'null'"}}]
+    assert "fixes" not in json.loads(as_sarif([diagnostic(Span("m.yaml"))], {}))["runs"][0]["results"][0]
 
 
 def test_sarif_of_nothing_is_a_log_with_an_empty_run() -> None:

@@ -11,6 +11,7 @@ from urllib.parse import quote
 
 from regscribe import __version__
 from regscribe.model import Diagnostic, Rule, Severity, Span
+from regscribe.schema import inline
 
 SCHEMA = "https://docs.oasis-open.org/sarif/sarif/v2.1.0/errata01/os/schemas/sarif-schema-2.1.0.json"
 
@@ -30,6 +31,7 @@ def _plain(diagnostic: Diagnostic) -> Json:
         "message": diagnostic.message,
         **asdict(diagnostic.span),
         "help": diagnostic.help,
+        "replacement": diagnostic.replacement,
         "related": [{"message": related.message, **asdict(related.span)} for related in diagnostic.related],
     }
 
@@ -91,10 +93,18 @@ def _result(diagnostic: Diagnostic, rule_index: int) -> Json:
         "message": {"text": message},
         "locations": [_location(diagnostic.span)],
         **({"relatedLocations": related} if related else {}),
+        **({"fixes": [_fix(diagnostic)]} if diagnostic.replacement else {}),
     }
 
 
-def _location(span: Span) -> Json:
+def _fix(diagnostic: Diagnostic) -> Json:
+    location = _location(diagnostic.span)["physicalLocation"]
+    change = {"deletedRegion": location["region"], "insertedContent": {"text": inline(diagnostic.replacement)}}
+    where = {"artifactLocation": location["artifactLocation"], "replacements": [change]}
+    return {"description": {"text": f"write `{diagnostic.replacement}`"}, "artifactChanges": [where]}
+
+
+def _location(span: Span) -> dict[str, Json]:
     path = Path(span.file)
     uri = path.as_uri() if path.is_absolute() else quote(path.as_posix())
     end_line = max(span.line, span.end_line)
