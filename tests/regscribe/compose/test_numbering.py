@@ -123,17 +123,17 @@ def test_a_library_is_written_in_its_own_way(maps: Maps, sound: Callable[..., Re
 def test_the_docs_show_the_wire_address_and_the_number_of_the_manual(sound: Callable[..., RegisterMap]) -> None:
     page = render(sound(text("{at: 40011, name: Ten}", "{at: 300012, name: Eleven, access: r}")))["docs/acme/one.md"]
 
-    assert "| 10 | 40011 | [Ten](#register-ten) |" in page
-    assert "| Wire address | 10 (Modicon 40011) |" in page
-    assert "| 11 | 300012 | [Eleven](#register-eleven) |" in page
+    assert "| 10 (0xA) | 40011 | [Ten](#register-ten) |" in page
+    assert "| Wire address | 10 (0xA, Modicon 40011) |" in page
+    assert "| 11 (0xB) | 300012 | [Eleven](#register-eleven) |" in page
 
 
 def test_a_manual_that_prints_hexadecimal_addresses_is_shown_so(sound: Callable[..., RegisterMap]) -> None:
     top = "notations: [{name: manual, space: holding, offset: 0, base: 16}]\nwritten_in: manual"
     page = render(sound(text("{at: 0x3100, name: Level}", top=top)))["docs/acme/one.md"]
 
-    assert "| 12544 | 0x3100 | [Level](#register-level) |" in page
-    assert "| Wire address | 12544 (manual 0x3100) |" in page
+    assert "| 12544 | 0x3100 | 412545 | [Level](#register-level) |" in page
+    assert "| Wire address | 12544 (manual 0x3100, Modicon 412545) |" in page
 
 
 def test_messages_show_the_number_of_the_manual_and_the_wire_address(maps: Maps) -> None:

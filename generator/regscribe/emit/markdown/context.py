@@ -5,6 +5,7 @@ from dataclasses import dataclass
 
 from regscribe.emit.common_values import Merged, T
 from regscribe.emit.markdown.escape import Md, code, escape, lines, link, md, slug
+from regscribe.emit.markdown.notations import bracketed, notations
 from regscribe.emit.markdown.page_values import PageTable, table
 from regscribe.emit.outline import Node, leaves, outline, pattern
 from regscribe.emit.words import Wording, condition_words, one_line, spelled
@@ -67,9 +68,8 @@ class PageContext:
         return Md() if len(names) == len(self.map.models) else escape(", ".join(map(one_line, names)))
 
     def notations(self, space: Space, address: int) -> Md:
-        """Return the other notations of an address: `absolute 40001`."""
-        found = [item for item in self.map.notations if item.space is space]
-        return md(", ".join(f"{one_line(item.name)} {item.printed(address)}" for item in found))
+        """Return the other notations of an address: `0xFD1, absolute 44050`."""
+        return notations(self.map, space, address)
 
     def place(self, space: Space, address: int) -> str:
         """Return an address as a model that has its page spells it."""
@@ -79,9 +79,7 @@ class PageContext:
 
     def address(self, space: Space, address: int, block: str = "") -> Md:
         """Return an address with its other notations in brackets; none of one that counts from the base of a block."""
-        notations = Md() if block else self.notations(space, address)
-        shown = self.place(space, address)
-        return md(shown, " (", notations, ")") if notations else md(shown)
+        return bracketed(self.place(space, address), Md() if block else self.notations(space, address))
 
 
 def context(register_map: RegisterMap) -> PageContext:

@@ -6,6 +6,7 @@ from operator import attrgetter
 from regscribe.emit.common_values import Merged, Stated, models_by
 from regscribe.emit.markdown.context import SPACES, PageContext
 from regscribe.emit.markdown.escape import Md, code, escape, md, prose
+from regscribe.emit.markdown.notations import bracketed
 from regscribe.emit.markdown.page_values import Titled, table
 from regscribe.emit.markdown.register_facts import transmission, view_type
 from regscribe.emit.outline import Leaf, formula
@@ -178,12 +179,14 @@ def elements(context: PageContext, leaf: Leaf) -> tuple[Titled, ...]:
     if not leaf.arrays:
         return ()
 
+    def address(model: Model, register: Register, view: View) -> Md:
+        place = view.address(register.at)
+        others = Md() if register.block else context.notations(view.space, place)
+        return bracketed(model.spelled(view.space, place), others)
+
     def rows(model: Model, _: Register) -> Rows:
         items = context.elements[model.name, leaf.register.key]
-        return tuple(
-            (code(item.path), *(escape(model.spelled(view.space, view.address(item.at))) for view in item.views))
-            for item in items
-        )
+        return tuple((code(item.path), *(address(model, item, view) for view in item.views)) for item in items)
 
     headers = ("Element", *(view.name for view in leaf.register.first.views))
     return titled("Address of every element", headers, leaf.register.states(rows), folded=True)

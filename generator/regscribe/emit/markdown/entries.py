@@ -7,6 +7,7 @@ from regscribe.emit.markdown.alt_text import bit_fields, structure
 from regscribe.emit.markdown.context import PageContext, by_model, conclusions, only, source
 from regscribe.emit.markdown.details import Rows, bits, by_condition, elements, titled, values, views
 from regscribe.emit.markdown.escape import Md, code, escape, join, lines, link, md, prose
+from regscribe.emit.markdown.overview import addresses
 from regscribe.emit.markdown.page_values import PageSection, PageTable, RegisterEntry, Titled
 from regscribe.emit.markdown.process import effects
 from regscribe.emit.markdown.register_facts import KINDS, facts, indices, scale, specials, transmission, view_type
@@ -105,12 +106,22 @@ def _summary(context: PageContext, leaf: Leaf) -> Md:
     symbols = dict.fromkeys(_symbol(register) for _, register in shared.versions)
     sources = dict.fromkeys(one_line(register.section) for _, register in shared.versions)
     parts = (
+        join(" or ", dict.fromkeys(_place(context, leaf, register) for _, register in shared.versions)),
         code(lettered(shared.first.path)),
         escape(", ".join(filter(None, symbols))),
         source(", ".join(filter(None, sources))),
         only(context, shared.models),
     )
     return join(DOT, parts)
+
+
+def _place(context: PageContext, leaf: Leaf, register: Register) -> Md:
+    """Return the space and the address, of an array from the first element to the last: `holding 4049 (0xFD1)`."""
+    base = register.base
+    if leaf.arrays:
+        return md(f"{base.space} ", addresses(context, leaf, base, register))
+    address = md(f"{base.space} ", context.address(base.space, register.address, register.block))
+    return md(address, " from the base of block ", code(register.block)) if register.block else address
 
 
 def _symbol(register: Register) -> str:
@@ -225,7 +236,7 @@ def _step(context: PageContext, model: Model, number: int, step: CommandStep, pa
     register = context.register(path) if path else Md()
     words = step.argument or " ".join(map(str, step.words))
     hexadecimal = "" if step.space.is_bits or step.argument else " ".join(f"{word & 0xFFFF:04X}" for word in step.words)
-    address = f"{step.block} + {step.address}" if step.block else step.space.spelled(step.address)
+    address = md(f"{step.block} + {step.address}") if step.block else context.address(step.space, step.address)
     when = md(" only if ", context.condition(step.when, model)) if not step.when.always else Md()
     cells = (str(number), md("write", when), f"{step.function:02d}", address, register, words, hexadecimal)
     return tuple(map(md, cells))

@@ -5,11 +5,12 @@ from functools import partial
 
 from regscribe.emit.markdown.context import SPACES, PageContext, by_model
 from regscribe.emit.markdown.escape import Md, code, escape, join, link, md
+from regscribe.emit.markdown.notations import Column, columns, span
 from regscribe.emit.markdown.page_values import PageTable, Titled, table
 from regscribe.emit.markdown.register_facts import symbols
 from regscribe.emit.outline import Leaf, aliases, last_address, leaves, lettered
 from regscribe.emit.words import codes_words, default_words, one_line, range_words, span_words, special_words
-from regscribe.model import Access, Kind, Model, Notation, Register, Space, View
+from regscribe.model import Access, Kind, Model, Register, Space, View
 
 ACCESS = {Access.READ: "R", Access.READ_WRITE: "R/W", Access.WRITE: "W"}
 MANY = 3
@@ -32,33 +33,36 @@ def _title(block: str, space: Space) -> str:
 
 def _table(context: PageContext, where: tuple[str, Space], found: Sequence[Leaf]) -> PageTable:
     ordered = sorted(found, key=lambda leaf: leaf.register.first.address)
-    notations = [item for item in context.map.notations if ("", item.space) == where]
+    block, space = where
+    notations = () if block else columns(context.map, space)
     names = dict.fromkeys(view.name for leaf in found for view in leaf.register.first.views[1:])
-    headers = ("Address", *(one_line(item.name) for item in notations), *names, "Also at", *HEADERS)
+    headers = ("Address", *(name for name, _ in notations), *names, "Also at", *HEADERS)
     return table(headers, (_row(context, leaf, notations, list(names)) for leaf in ordered))
 
 
 HEADERS = ("Name", "Id", "Access", "Range", "Default", "Unit", "Models")
 
 
-def _row(context: PageContext, leaf: Leaf, notations: Sequence[Notation], names: Sequence[str]) -> tuple[Md, ...]:
+def _row(context: PageContext, leaf: Leaf, notations: Sequence[Column], names: Sequence[str]) -> tuple[Md, ...]:
     shared = leaf.register
     owners = [f"{one_line(array.name)} {array.first} to {array.first + array.count - 1}: " for array in leaf.arrays]
 
     def cell(fact: Callable[[Model, Register], Md]) -> Md:
         return by_model(shared, fact)
 
-    def address(notation: Notation | None = None) -> Md:
-        return cell(lambda _, register: _span(context, leaf, register.base, register, notation))
+    def notation(column: Column) -> Md:
+        return cell(lambda _, register: escape(span_words(*map(column[1], _ends(leaf, register.base, register)))))
 
     def other_view(name: str) -> Md:
         return cell(lambda _, register: _other_view(context, leaf, name, register))
 
     return (
-        address(),
-        *map(address, notations),
+        cell(lambda _, register: addresses(context, leaf, register.base, register)),
+        *map(notation, notations),
         *map(other_view, names),
-        cell(lambda _, register: join(", ", (_span(context, leaf, alias, register) for alias in aliases(register)))),
+        cell(
+            lambda _, register: join(", ", (addresses(context, leaf, alias, register) for alias in aliases(register)))
+        ),
         link(md(*owners, one_line(shared.first.name)), context.anchor("register", shared.key)),
         code(lettered(shared.first.path)),
         cell(lambda _, register: escape(ACCESS[register.access])),
@@ -69,9 +73,18 @@ def _row(context: PageContext, leaf: Leaf, notations: Sequence[Notation], names:
     )
 
 
-def _span(context: PageContext, leaf: Leaf, view: View, register: Register, notation: Notation | None = None) -> Md:
-    ends = view.address(register.at), last_address(view, register.at, leaf.arrays)
-    return escape(span_words(*map(notation.printed if notation else partial(context.place, view.space), ends)))
+def _aliases(context: PageContext, leaf: Leaf, register: Register) -> Md:
+    return join(", ", (addresses(context, leaf, alias, register) for alias in aliases(register)))
+
+
+def _ends(leaf: Leaf, view: View, register: Register) -> tuple[int, int]:
+    return view.address(register.at), last_address(view, register.at, leaf.arrays)
+
+
+def addresses(context: PageContext, leaf: Leaf, view: View, register: Register) -> Md:
+    """Return the addresses of a register in a view, of an array from the first element to the last."""
+    ends, spelled = _ends(leaf, view, register), partial(context.place, view.space)
+    return escape(span_words(*map(spelled, ends)) if register.block else span(context.map, view.space, ends, spelled))
 
 
 def _other_view(context: PageContext, leaf: Leaf, name: str, register: Register) -> Md:
@@ -79,7 +92,7 @@ def _other_view(context: PageContext, leaf: Leaf, name: str, register: Register)
     if view is None:
         return Md()
     space = f" ({SPACES[view.space]})" if view.space is not register.base.space else ""
-    return md(_span(context, leaf, view, register), space)
+    return md(addresses(context, leaf, view, register), space)
 
 
 def _range(context: PageContext, model: Model, register: Register) -> Md:

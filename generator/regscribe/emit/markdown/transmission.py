@@ -6,10 +6,11 @@ from fractions import Fraction
 from regscribe.emit.common_values import models_by
 from regscribe.emit.markdown.context import SPACES, PageContext
 from regscribe.emit.markdown.escape import Md, code, escape, md, prose
+from regscribe.emit.markdown.notations import span
 from regscribe.emit.markdown.page_values import PageTable, Titled, table
 from regscribe.emit.markdown.register_facts import transmission, view_type
 from regscribe.emit.outline import leaves
-from regscribe.emit.words import condition_words, given_words, listed, one_line, span_words, when_words
+from regscribe.emit.words import condition_words, given_words, listed, one_line, when_words
 from regscribe.model import Kind, Register, RegisterBlock, View, show
 
 Shape = tuple[tuple[str, View], ...]
@@ -159,15 +160,18 @@ def _base(block: RegisterBlock) -> Md:
 
 def reserved(context: PageContext) -> PageTable:
     """Return the addresses that the manual reserves."""
-    rows = ((SPACES[space], span_words(*map(space.spelled, (low, high)))) for space, low, high in context.map.reserved)
+    found = context.map.reserved
+    rows = ((SPACES[space], span(context.map, space, (low, high), space.spelled)) for space, low, high in found)
     return table(("Space", "Wire addresses"), rows)
 
 
 def unused(context: PageContext) -> PageTable:
     """Return the addresses that the manual lists as unused, with the models where not all agree."""
-    found = models_by((model.name, stretch) for model in context.map.models for stretch in model.unused)
+    found = models_by(
+        (model.name, (space, (low, high))) for model in context.map.models for space, low, high in model.unused
+    )
     rows = (
-        (SPACES[space], span_words(*map(space.spelled, ends)), context.covers(models))
-        for (space, *ends), models in found.items()
+        (SPACES[space], span(context.map, space, ends, space.spelled), context.covers(models))
+        for (space, ends), models in found.items()
     )
     return table(("Space", "Wire addresses", "Models"), rows)

@@ -98,8 +98,8 @@ def test_a_latency_says_its_characters_and_its_remark(base_page: str) -> None:
 
 def test_unused_addresses_are_listed_with_their_models_and_the_answer_to_a_write(base_page: str) -> None:
     listed = base_page.split("Listed as unused by the manual")[1].split('<a id="registers">', maxsplit=1)[0]
-    assert "| Holding registers | 16 to 28 |  |" in listed
-    assert "| Coils | 5 | B2 |" in listed
+    assert "| Holding registers | 16 to 28 (0x10 to 0x1C) |  |" in listed
+    assert "| Coils | 5 (0x5) | B2 |" in listed
     assert "| write to an address listed as unused | exception 07 (refused) |" in base_page
 
 
@@ -121,4 +121,4 @@ def test_differences_from_the_base_are_listed_with_their_reasons(own_page: str) 
 
 def test_an_extension_says_what_it_inherits_like_any_map(own_page: str) -> None:
     assert "S.P. 1 (printed 5P.1)" in own_page
-    assert "| Coils | 5 | O2 |" in own_page
+    assert "| Coils | 5 (0x5) | O2 |" in own_page

@@ -46,25 +46,25 @@ def test_an_array_shows_the_formula_and_every_address(section: Section) -> None:
     found = section("register-segments-ramp_time")
     assert "`4200 + 3*(i - 1)`, i = 1 to 4" in found
     assert "<details>" in found
-    assert "| `segments[4].ramp_time` | 4209 |" in found
+    assert "| `segments[4].ramp_time` | 4209 (0x1071, absolute 44210) |" in found
 
 
 def test_a_view_with_a_stride_of_its_own_moves_by_it(section: Section) -> None:
     found = section("register-segments-soak_level")
     assert "`8100 + 6*(i - 1)`" in found
-    assert "| `segments[2].soak_level` | 53 | 8106 |" in found
+    assert "| `segments[2].soak_level` | 53 (0x35, absolute 40054) | 8106 (0x1FAA, absolute 48107) |" in found
 
 
 def test_the_overview_shows_all_notations_and_views(text: str) -> None:
     assert "| Address | absolute | ieee | Also at | Name | Id | Access | Range | Default | Unit | Models |" in text
-    assert "| 1 | 40002 | 8002 |  | [Setpoint](#register-setpoint) | `setpoint` | R/W |" in text
-    assert "| 4004 | 44005 |  | 4100 | [Status](#register-status) |" in text
-    assert "| 4200 to 4209 | 44201 to 44210 |" in text
+    assert "| 1 (0x1) | 40002 | 8002 (0x1F42) |  | [Setpoint](#register-setpoint) | `setpoint` | R/W |" in text
+    assert "| 4004 (0xFA4) | 44005 |  | 4100 (0x1004) | [Status](#register-status) |" in text
+    assert "| 4200 to 4209 (0x1068 to 0x1071) | 44201 to 44210 |" in text
 
 
 def test_the_overview_is_ordered_by_address_and_not_by_group(text: str) -> None:
     overview = text[text.index('<a id="overview">') : text.index('<a id="registers">')]
-    rows = [overview.index(f"| {address} | ") for address in ("1", "2", "4000", "4001", "4004")]
+    rows = [overview.index(f"| {address} (") for address in ("1", "2", "4000", "4001", "4004")]
 
     assert rows == sorted(rows)
 
@@ -101,7 +101,7 @@ def test_commands_show_steps_models_and_danger(section: Section) -> None:
     found = section("command-load_defaults")
     assert "only A1, A2" in found
     assert "> **Danger:** all settings are lost" in found
-    assert "| 1 | write | 16 | 7000 | 85 92 | 0055 005C |" in found
+    assert "| 1 | write | 16 | 7000 (0x1B58, absolute 47001) | 85 92 | 0055 005C |" in found
     assert "wait 2000 ms" in found
 
 
@@ -161,5 +161,5 @@ def test_worked_examples_show_words_in_both_bases(text: str) -> None:
 
 
 def test_reserved_addresses_and_identification_are_listed(text: str) -> None:
-    assert "| Holding registers | 77 to 79 |" in text
+    assert "| Holding registers | 77 to 79 (0x4D to 0x4F) |" in text
     assert "| [`dp`](#register-dp) is 0 | A1 or A2 |" in text
