@@ -50,6 +50,15 @@ def ids_in(folders: Iterable[Path], kind: str = MAP) -> list[str]:
     return [name.removesuffix(ENDINGS[kind]) for name in names if kind_of(name) == kind]
 
 
+def files_below(folder: Path, kinds: Iterable[str] = (MAP,)) -> list[Path]:
+    """Return all *.yaml of these kinds below `folder`, sorted; hidden folders and links to folders are left alone."""
+    maps: list[Path] = []
+    for root, folders, names in os.walk(folder):
+        folders[:] = [name for name in folders if not name.startswith(".")]
+        maps += [Path(root, name) for name in names if name.endswith(ENDINGS[MAP]) and not name.startswith(".")]
+    return sorted(path for path in maps if kind_of(path.name) in kinds)
+
+
 def kind_of(file: str) -> str:
     """Return the kind of a YAML file, by the ending of its name."""
     if file.endswith(IMPORT_ENDING):

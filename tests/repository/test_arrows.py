@@ -65,7 +65,7 @@ ROOMS = {
     "simulate": {"model", "reference", "source", "files", "map_files", "pipeline", WIRE},
     "pytest_plugin": {"model", "simulate"},
     "testing": WHOLE,
-    "tools": {"model", "source", "schema", "files", "visible", "emit", "pictures"} | WHOLE,
+    "tools": {"model", "source", "schema", "files", "visible", "emit", "pictures", "map_files", "pipeline"} | WHOLE,
     "cli": {"model", "reference", "source", "schema", "compose", "lower", "checks", "emit", "pictures", "evidence"}
     | {"plugins", "simulate", "pipeline", "files", "tools", "map_files", "visible", "draft", "losses"}
     | {"planned_model", "breaking", "register_browser"}

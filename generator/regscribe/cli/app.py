@@ -34,7 +34,7 @@ COMMANDS = {
     "coverage": "Count what maps cover; list what is inferred and open.",
     "simulate": "Serve models of maps as Modbus devices.",
     "plan": "Show which requests read registers at the least cost, and why.",
-    "devices": "List the models that drivers exist for.",
+    "devices": "List the models that drivers exist for, and those of the maps here.",
     "scan": "Find the units on a line or behind a gateway.",
     "identify": "Ask a device what it is.",
     "read": "Read registers of a device, by name and with units.",

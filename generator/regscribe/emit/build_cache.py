@@ -16,6 +16,7 @@ from dataclasses import asdict, dataclass, field
 from importlib.util import find_spec
 from itertools import chain
 from pathlib import Path
+from typing import Any
 
 import regscribe
 import regscribe_runtime
@@ -64,19 +65,14 @@ class Cache:
         """Return the entry of the map at `path` if compiling it again would change nothing."""
         entry = self.entries.get(key(path))
         with suppress(OSError, ValueError):
-            if entry is not None and _same(entry.sources) and _same(entry.files, self.out):
+            if entry is not None and same(entry.sources) and same(entry.files, self.out):
                 return entry
         return None
 
     def save(self) -> None:
         """Keep the record for the next run; a cache that cannot be written is no error."""
-        place = _place(self.out)
         with suppress(OSError):
-            place.parent.mkdir(parents=True, exist_ok=True)
-            temporary = place.with_name(f"{place.name}.{os.getpid()}.tmp")
-            record = json.dumps(asdict(self) | {"out": str(self.out)})
-            temporary.write_text(f"{digest(record.encode())}\n{record}", encoding="utf-8")
-            temporary.replace(place)
+            write_record(_place(self.out), asdict(self) | {"out": str(self.out)})
 
 
 def load(out: Path, more: Iterable[tuple[str, bytes]] = ()) -> Cache:
@@ -86,8 +82,7 @@ def load(out: Path, more: Iterable[tuple[str, bytes]] = ()) -> Cache:
     """
     empty = Cache(out, fingerprint(more))
     try:
-        checksum, _, record = _place(out).read_text(encoding="utf-8").partition("\n")
-        plain = json.loads(record) if checksum == digest(record.encode()) else {}
+        plain = read_record(_place(out))
         entries = {path: _entry(entry) for path, entry in plain["entries"].items()}
         return Cache(out, empty.fingerprint, entries) if plain["fingerprint"] == empty.fingerprint else empty
     except (OSError, ValueError, TypeError, KeyError, AttributeError):  # absent, cut off or of another shape
@@ -103,7 +98,23 @@ def _entry(plain: Mapping[str, object]) -> BuildRecord:
     return BuildRecord(str(fields["id"]), sources, files, Counts(**counts), card_of(fields["card"]))
 
 
-def _same(digests: Mapping[str, str], folder: Path = Path()) -> bool:
+def read_record(place: Path) -> dict[str, Any]:
+    """Return what `write_record` kept, empty if it was cut off. Raises OSError or ValueError if it cannot be read."""
+    checksum, _, record = place.read_text(encoding="utf-8").partition("\n")
+    plain: dict[str, Any] = json.loads(record) if checksum == digest(record.encode()) else {}
+    return plain
+
+
+def write_record(place: Path, plain: Mapping[str, object]) -> None:
+    """Keep `plain` as JSON behind its own hash, all of it or nothing. Raises OSError."""
+    place.parent.mkdir(parents=True, exist_ok=True)
+    temporary = place.with_name(f"{place.name}.{os.getpid()}.tmp")
+    record = json.dumps(plain)
+    temporary.write_text(f"{digest(record.encode())}\n{record}", encoding="utf-8")
+    temporary.replace(place)
+
+
+def same(digests: Mapping[str, str], folder: Path = Path()) -> bool:
     """Tell whether the files below `folder` have these digests; with NOTHING, whether there is none."""
     return all(
         digest((folder / path).read_bytes()) == known if known else not os.path.lexists(folder / path)
@@ -148,6 +159,16 @@ def _files(folder: Path) -> Iterator[Path]:
         yield from (Path(root, name) for name in names if not name.endswith((".pyc", ".yaml")))
 
 
-def _place(out: Path) -> Path:
+def folder() -> Path:
+    """Return the folder in the user's cache directory that is regscribe's own."""
     home = os.environ.get("XDG_CACHE_HOME") or os.path.expanduser("~/.cache")  # noqa: PTH111 - Path.expanduser raises without a home
-    return Path(home, "regscribe", f"{digest(os.path.realpath(out).encode(errors='surrogateescape'))[:32]}.json")
+    return Path(home, "regscribe")
+
+
+def name_of(path: Path) -> str:
+    """Return the name of what is kept for a file or a folder: a hash of its real path."""
+    return digest(os.path.realpath(path).encode(errors="surrogateescape"))[:32]
+
+
+def _place(out: Path) -> Path:
+    return folder() / f"{name_of(out)}.json"

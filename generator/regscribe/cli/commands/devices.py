@@ -1,15 +1,16 @@
-"""`regscribe devices`: the models that drivers exist for, and what one of them has."""
+"""`regscribe devices`: the models that drivers or maps here exist for, and what one of them has."""
 
 from typing import Any
 
 import click
 
 from regscribe.cli.shared.completion_values import complete_model
-from regscribe.cli.shared.live_report import refused_if, reported
+from regscribe.cli.shared.live_report import refused_if, remark_broken_maps, reported
 from regscribe.cli.shared.output import print_json, remark, show_table
 from regscribe.cli.shared.target_options import driver_options
 from regscribe.tools.live import catalogue, givens, names, value_text
 from regscribe.tools.live import config as configuration
+from regscribe.tools.live.map_drivers import origin_of
 from regscribe_runtime import Computed, Register
 from regscribe_runtime.driver.identify import Known
 
@@ -23,9 +24,9 @@ ACCESS = {"r": "read", "w": "write", "rw": "read, write"}
 def command(
     *, search: tuple[str, ...], registers: bool, packages: tuple[str, ...], config: str | None, as_json: bool
 ) -> int:
-    """List all models that drivers exist for; with words, those that all words fit.
+    """List all models that drivers exist for, and those of the maps in maps/ here.
 
-    A word fits a part of the model's name, its map, its maker or its description.
+    With words, those that all words fit. A word fits a part of the model's name, its map, its maker or its description.
     """
     with reported():
         everywhere = (*packages, *configuration.load(config).packages)
@@ -38,6 +39,7 @@ def command(
         print_json(devices=[_plain(known) for known in found])
     else:
         show_table(("MODEL", "MAP", "WHAT IT IS"), [_row(known) for known in found])
+    remark_broken_maps()
     if not found:
         remark(f"no model fits `{' '.join(search)}`")
     return refused_if(not found)
@@ -50,15 +52,18 @@ def _fits(known: Known, search: tuple[str, ...]) -> bool:
 
 def _row(known: Known) -> tuple[str, str, str]:
     needs = ", ".join(f"--given {one.id}={one.example}" for one in givens.givens_of(known.driver))
-    return known.model, known.map_id, f"{catalogue.title(known)}{f' (needs {needs})' if needs else ''}"
+    own = origin_of(known.driver)
+    title = f"{catalogue.title(known)}{f' ({own})' if own else ''}"
+    return known.model, known.map_id, f"{title}{f' (needs {needs})' if needs else ''}"
 
 
 def _plain(known: Known) -> dict[str, Any]:
+    own = origin_of(known.driver)
     return {
         "model": known.model,
         "map": known.map_id,
         "title": catalogue.title(known),
-        "driver": f"{known.driver.__module__}.{known.driver.__name__}",
+        **({"file": str(own)} if own else {"driver": f"{known.driver.__module__}.{known.driver.__name__}"}),
         "registers": len(known.driver.registers),
         "identifiable": bool(known.driver.identity),
         "givens": [one.id for one in givens.givens_of(known.driver)],

@@ -4,7 +4,7 @@ from typing import Any
 
 import click
 
-from regscribe.cli.shared.live_report import refused_if, reported
+from regscribe.cli.shared.live_report import refused_if, remark_broken_maps, reported
 from regscribe.cli.shared.output import print_json, remark, show_table
 from regscribe.cli.shared.target_options import target_options
 from regscribe.tools.live import catalogue
@@ -36,6 +36,7 @@ def command(*, target: Target, as_json: bool) -> int:
         _remarks(len(found.models), [one for one in found.evidence if one.error is None])
         for known, one in found.lacking:
             remark(f"{known.model} is ruled out: {one.register} at address {one.address}, which each has, is refused")
+    remark_broken_maps()
     return refused_if(not found.models)
 
 

@@ -12,10 +12,13 @@ from typing import IO, Any
 
 import click
 
+from regscribe.cli.shared.diagnostic_text import report
 from regscribe.cli.shared.output import hexadecimal, print_json_line, remark, show_table, warn
+from regscribe.tools.live import catalogue
 from regscribe.tools.live.capture import RECEIVED, SENT
 from regscribe.tools.live.decode import Decoded, Decoder
 from regscribe.tools.live.errors import TargetError
+from regscribe.tools.live.map_drivers import MapError
 from regscribe.tools.live.reading import RegisterReading
 from regscribe.tools.live.target import Target
 from regscribe.tools.live.watch import rfc3339
@@ -70,6 +73,10 @@ def reported() -> Iterator[None]:
     """Turn errors of targets and of drivers into a `Failure`; others pass."""
     try:
         yield
+    except MapError as error:
+        report(error.diagnostics, failed=False, nothing="")
+        message = f"the map {error.path} has errors, so nothing was sent"
+        raise Failure(message, kind="map", code=REFUSED) from None
     except TargetError as error:
         raise Failure(str(error), kind="target", code=USAGE) from None
     except RegscribeError as error:
@@ -90,6 +97,12 @@ def code_of(error: RegscribeError) -> int:
         return UNKNOWN_STATE
     behind_gateway = isinstance(error, ExceptionAnswer) and error.code in GATEWAY and not error.name
     return SILENT if behind_gateway or isinstance(error, (LinkLost, NoAnswer)) else REFUSED
+
+
+def remark_broken_maps() -> None:
+    """Tell which maps here are left out, since they have errors."""
+    for error in catalogue.broken_maps():
+        remark(f"{error.path} has errors and is left out: `regscribe check {error.path}` tells them")
 
 
 def refused_if(fault: object) -> int:

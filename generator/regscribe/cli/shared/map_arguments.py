@@ -6,7 +6,7 @@ from difflib import get_close_matches
 from pathlib import Path
 
 from regscribe.cli.shared.output import refuse
-from regscribe.map_files import ENDINGS, IMPORT, LIBRARY, LOCAL, MAP, file_of, ids_in, kind_of, shipped
+from regscribe.map_files import ENDINGS, IMPORT, LIBRARY, LOCAL, MAP, file_of, files_below, ids_in, kind_of, shipped
 
 
 def find_maps(arguments: Sequence[str], *, libraries: bool = False) -> list[Path]:
@@ -54,12 +54,8 @@ def _file_of(argument: str, kinds: Sequence[str]) -> Path:
 
 
 def _files_below(folder: Path, kinds: Sequence[str]) -> list[Path]:
-    """All *.yaml below `folder`, sorted; hidden folders and links to folders are left alone."""
-    maps: list[Path] = []
-    for root, folders, names in os.walk(folder):
-        folders[:] = [name for name in folders if not name.startswith(".")]
-        maps += [Path(root, name) for name in names if name.endswith(ENDINGS[MAP]) and not name.startswith(".")]
-    found = sorted(path for path in maps if kind_of(path.name) in kinds)
+    """All maps below `folder`; UsageError if there is none."""
+    found = files_below(folder, kinds)
     if not found:
         refuse(f"there is no map (*.yaml) in the folder {folder}")
     return found

@@ -12,6 +12,8 @@ import click
 
 from regscribe.cli.shared.completion_values import complete_model, complete_target
 from regscribe.cli.shared.live_report import REFUSED, Failure, FrameTracer, reported
+from regscribe.cli.shared.output import remark
+from regscribe.tools.live import catalogue
 from regscribe.tools.live import target as targets
 from regscribe.tools.live.errors import TargetError
 from regscribe_runtime import BareDevice
@@ -20,7 +22,8 @@ F = TypeVar("F", bound=Callable[..., Any])
 Decorator = Callable[[Any], Any]
 
 HELP = """TARGET is a link (tcp:10.0.0.7:502?unit=1&model=16C, rtu:/dev/ttyUSB0?baud=9600&parity=E) or a name of the
-configuration. Without a model the device is asked what it is."""
+configuration. Without a model the device is asked what it is. Models are those of the maps in maps/ here, too, and of
+the map that ?map=FILE (or --map) names."""
 """How a command's help explains TARGET."""
 
 
@@ -75,6 +78,7 @@ identity_option = click.option(
 _target_options = declared(
     click.option("--unit", type=click.IntRange(0, 255), metavar="N", help="Unit id, in place of the target's."),
     click.option("--model", metavar="M", shell_complete=complete_model, help="Model, in place of the target's."),
+    click.option("--map", "map_name", metavar="MAP", help="The map of the model: a file or an id."),
     given_option,
     _package,
     _config,
@@ -85,7 +89,7 @@ _target_options = declared(
 
 
 def target_options(function: F) -> F:
-    """Give a command TARGET, --unit, --model, --given, --package, --config, --trace and --json.
+    """Give a command TARGET, --unit, --model, --map, --given, --package, --config, --trace and --json.
 
     The function is called with `target: Target` and `as_json: bool` in their place. A docstring as the command's help
     is followed by the explanation of TARGET.
@@ -97,6 +101,7 @@ def target_options(function: F) -> F:
         target_text: str,
         unit: int | None,
         model: str | None,
+        map_name: str | None,
         givens: tuple[str, ...],
         packages: tuple[str, ...],
         config: str | None,
@@ -105,7 +110,8 @@ def target_options(function: F) -> F:
     ) -> Any:  # noqa: ANN401 - the command's own result
         with reported():
             target = targets.named(target_text, config, packages)
-            target = targets.override(target, unit=unit, model=model or "", given=targets.given_texts(givens))
+            given = targets.given_texts(givens)
+            target = targets.override(target, unit=unit, model=model or "", map_name=map_name or "", given=given)
             target = replace(target, trace=FrameTracer(target)) if trace else target
         return function(*args, target=target, **more)
 
@@ -127,7 +133,9 @@ def opened(
     silence_loggers()
     with reported():
         identified = targets.identified(target)
-        driver = identified.known().driver
+        driver = (known := identified.known()).driver
+        if note := catalogue.instead_of_shipped(known):
+            remark(note)
         if check is not None:
             check(driver)
         if isinstance(target.trace, FrameTracer):

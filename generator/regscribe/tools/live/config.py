@@ -22,6 +22,7 @@ class NamedDevice:
     link: str
     unit: int | None = None
     model: str = ""
+    map: str = ""
     timeout: str = ""
     givens: Mapping[str, str] = field(default_factory=dict)
     note: str = ""
@@ -63,17 +64,18 @@ def _read(path: Path) -> Config:
         raise TargetError(str(error)) from None
     folder = path.resolve().parent
     packages = tuple(str(folder / name) if "/" in name else name for name in document.data.get("packages", ()))
-    devices = {name: _entry(given) for name, given in (document.data.get("devices") or {}).items()}
+    devices = {name: _entry(given, folder) for name, given in (document.data.get("devices") or {}).items()}
     return Config(path=str(path), devices=devices, packages=packages)
 
 
-def _entry(given: Any) -> NamedDevice:  # noqa: ANN401 - checked against the schema
+def _entry(given: Any, folder: Path) -> NamedDevice:  # noqa: ANN401 - checked against the schema
     if isinstance(given, str):
         return NamedDevice(link=given)
     return NamedDevice(
         link=given["link"],
         unit=given.get("unit"),
         model=given.get("model", ""),
+        map=str(beside) if (beside := folder / (named := given.get("map", ""))).is_file() else named,
         timeout=str(given.get("timeout", "")),
         givens={name: _given(value) for name, value in given.get("given", {}).items()},
         note=given.get("note", ""),

@@ -1,5 +1,6 @@
 """A target: the text that names a device for every command; parsed here, and made a driver."""
 
+import sys
 from collections.abc import Mapping, Sequence
 from contextlib import closing
 from dataclasses import dataclass, field, replace
@@ -20,7 +21,7 @@ LAST_UNIT = 255
 MOST_DIGITS = 9
 USUAL_UNIT = 1
 GIVEN = "given."
-KEYS = ("unit", "model")
+KEYS = ("unit", "model", "map")
 """What may stand behind the `?` of a link to name the device, besides `given.ID`."""
 USUAL_BAUD = 9600
 IDENTIFY_SECONDS = 1.0
@@ -31,13 +32,15 @@ IDENTIFY_SECONDS = 1.0
 class Target:
     """A device: the link to it, its unit, its model ("" until it was identified), its givens as texts.
 
-    `name` is what the configuration calls it, `packages` are the user's packages of drivers.
+    `name` is what the configuration calls it, `packages` are the user's packages of drivers. Its `map`, a file or an
+    id, says among which models it is ("": among all).
     `trace` is told of every frame.
     """
 
     link: LinkName
     unit: int = USUAL_UNIT
     model: str = ""
+    map: str = ""
     givens: Mapping[str, str] = field(default_factory=dict)
     name: str = ""
     packages: tuple[str, ...] = ()
@@ -51,7 +54,8 @@ class Target:
         if not self.model:
             message = f"{self}: its model is not known yet: add ?model=..., or let `identified` ask it"
             raise TargetError(message)
-        return catalogue.find(self.model, self.packages)
+        inside = self.map and ":" not in self.model
+        return catalogue.find(f"{self.map}:{self.model}" if inside else self.model, self.packages)
 
 
 def parse(text: str, config: Config | None = None) -> Target:
@@ -68,7 +72,7 @@ def parse(text: str, config: Config | None = None) -> Target:
     link, more = link_names.split(entry.link)
     link = link_names.with_settings(link, {"timeout": entry.timeout} if entry.timeout else {})
     found = _with(Target(link=link, name=text, packages=configured.packages), entry.link, more)
-    return override(found, unit=entry.unit, model=entry.model, given=entry.givens)
+    return override(found, unit=entry.unit, model=entry.model, map_name=entry.map, given=entry.givens)
 
 
 def named(text: str, config: str | None = None, packages: Sequence[str] = ()) -> Target:
@@ -78,7 +82,12 @@ def named(text: str, config: str | None = None, packages: Sequence[str] = ()) ->
 
 
 def override(
-    target: Target, *, unit: int | None = None, model: str = "", given: Mapping[str, str] | None = None
+    target: Target,
+    *,
+    unit: int | None = None,
+    model: str = "",
+    map_name: str = "",
+    given: Mapping[str, str] | None = None,
 ) -> Target:
     """The target with the given parts replaced; TargetError for a unit id that is none."""
     if unit is not None and not 0 <= unit <= LAST_UNIT:
@@ -88,6 +97,7 @@ def override(
         target,
         unit=target.unit if unit is None else unit,
         model=model or target.model,
+        map=map_name or target.map,
         givens={**target.givens, **(given or {})},
     )
 
@@ -118,7 +128,10 @@ def link_of(target: Target) -> Link:
 
 def packages_of(target: Target) -> tuple[ModuleType, ...]:
     """The packages whose models the target may be; TargetError if one cannot be imported."""
-    return tuple(catalogue.package(name) for name in (*target.packages, catalogue.SHIPPED))
+    if not target.map:
+        return catalogue.modules(target.packages)
+    found = catalogue.of_map(target.map, target.packages)
+    return tuple(dict.fromkeys(sys.modules[known.driver.__module__] for known in found))
 
 
 def identification(target: Target) -> Identification:
@@ -132,9 +145,11 @@ def identified(target: Target) -> Target:
     """The target with its model, as given or as identified; TargetError if that is unknown or ambiguous."""
     if target.model:
         return target
+    if target.map and len(known := catalogue.of_map(target.map, target.packages)) == 1:
+        return replace(target, model=known[0].model)
     found = identification(target)
     if found.certain:
-        return replace(target, model=catalogue.full_name(found.models[0]))
+        return replace(target, model=found.models[0].model if target.map else catalogue.full_name(found.models[0]))
     answered(found)
     if not found.models:
         seen = "; ".join(dict.fromkeys(str(one.error) for one in found.evidence if one.error)) or "no answer fits"
@@ -179,7 +194,7 @@ def _with(target: Target, text: str, more: Mapping[str, str]) -> Target:
         message = f"{text}: unit={unit}: a unit id is 0 to {LAST_UNIT}"
         raise TargetError(message)
     given = {key.removeprefix(GIVEN): value for key, value in more.items() if key.startswith(GIVEN)}
-    return override(target, unit=int(unit), model=more.get("model", ""), given=given)
+    return override(target, unit=int(unit), model=more.get("model", ""), map_name=more.get("map", ""), given=given)
 
 
 def given_texts(texts: Sequence[str]) -> dict[str, str]:

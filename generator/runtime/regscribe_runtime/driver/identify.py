@@ -75,17 +75,18 @@ def known_models(*packages: ModuleType) -> tuple[Known, ...]:
     """The models with identity facts in generated packages.
 
     Without `packages` in `regscribe_devices`, if it is installed, and in the modules of entry points of DRIVERS.
+    The first of several that have a model provides it.
     """
     if not packages:
         declared = {point.module for point in entry_points(group=DRIVERS)}
         names = sorted(declared | ({SHIPPED} if find_spec(SHIPPED) else set()))
         packages = tuple(map(importlib.import_module, names))
-    found = {}
+    found: dict[tuple[str, str], Known] = {}
     for module in _modules(packages):
         for value in list(vars(module).values()):
             if isinstance(value, type) and issubclass(value, BareDevice) and value.identity:
                 partner = getattr(module, f"Async{value.__name__}")
-                found[value.map_id, value.model] = Known(value.map_id, value.model, value, partner)
+                found.setdefault((value.map_id, value.model), Known(value.map_id, value.model, value, partner))
     return tuple(found[key] for key in sorted(found))
 
 
