@@ -133,7 +133,7 @@ def test_a_computed_value_that_no_vector_knows_is_noticed() -> None:
 
 def test_only_the_generated_tests_of_maps_with_computed_values_ask_for_them() -> None:
     texts = [
-        render(build(text).map)["tests/test/test_case.py"]
+        render(build(text).map)["tests/test/test_test__case.py"]
         for text in (MAPS["terms"], whole_map({"registers": [POWER]}))
     ]
     assert ["driver.check_computed()" in text for text in texts] == [True, False]

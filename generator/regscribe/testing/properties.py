@@ -9,8 +9,12 @@ from decimal import Context, Decimal
 from fractions import Fraction
 from typing import Any
 
-from hypothesis import settings
-from hypothesis import strategies as st
+try:
+    from hypothesis import HealthCheck, given, settings
+    from hypothesis import strategies as st
+except ModuleNotFoundError as error:
+    message = "the generated tests need hypothesis: pip install 'regscribe[test]'"
+    raise ModuleNotFoundError(message, name=error.name) from None
 
 from regscribe.testing.compare import written
 from regscribe.testing.driver_checks import DriverUnderTest
@@ -23,8 +27,17 @@ from regscribe_runtime.registers.register import Register
 from regscribe_runtime.registers.value_types import FlagsType, WordType
 from regscribe_runtime.values.wire_types import WireType
 
-each_run = settings(max_examples=40, deadline=None, derandomize=True, database=None)
+each_run = settings(
+    max_examples=40,
+    deadline=None,
+    derandomize=True,
+    database=None,
+    suppress_health_check=[HealthCheck.too_slow],  # a busy machine is no fault of a driver
+)
 """How often each property is tried for each model."""
+drawn = given(data=st.data())
+"""Hands `data` to a test, from which it draws."""
+Data = st.DataObject
 
 NO_VALUES: tuple[object, ...] = (math.nan, math.inf, -math.inf, None, [1], object())
 PARTS = 1_000_000

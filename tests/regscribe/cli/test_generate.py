@@ -33,7 +33,7 @@ def test_a_map_becomes_driver_docs_vectors_and_tests_with_a_summary(cli: Callabl
         "regscribe_devices/acme/__init__.py",
         "regscribe_devices/acme/oven.py",
         "regscribe_devices/py.typed",
-        "tests/acme/test_oven.py",
+        "tests/acme/test_acme__oven.py",
         "vectors/acme/oven.json",
     ]
 

@@ -1,5 +1,6 @@
 """`regscribe generate`: compile maps to drivers, docs, vectors and tests."""
 
+import shlex
 from collections.abc import Sequence
 from dataclasses import dataclass, field
 from pathlib import Path
@@ -11,12 +12,14 @@ from regscribe.cli.shared.diagnostic_text import count, report
 from regscribe.cli.shared.map_arguments import find_maps
 from regscribe.cli.shared.map_builds import Made, make_all
 from regscribe.cli.shared.output import raised_as, refuse, tell
+from regscribe.cli.shared.project_file import check_name, start_project
 from regscribe.emit import build_cache
 from regscribe.emit.build_cache import BuildRecord
 from regscribe.emit.docs_index import render_index
 from regscribe.emit.header import origin_of
 from regscribe.emit.templates import Templates
 from regscribe.emit.write import Report, WriteError, write
+from regscribe.files import FileError
 from regscribe.model import Diagnostic
 from regscribe.visible import safe_lines
 
@@ -58,7 +61,12 @@ class Build:
     metavar="DIR",
     help="Templates of your own: each *.j2 below DIR is rendered for every map (docs/templates.md).",
 )
-def command(*, maps: tuple[str, ...], check: bool, out: Path, folder: Path | None) -> int:
+@click.option(
+    "--project",
+    metavar="NAME",
+    help="Write DIR/pyproject.toml, with which pip installs the drivers as NAME, unless there is one.",
+)
+def command(*, maps: tuple[str, ...], check: bool, out: Path, folder: Path | None, project: str | None) -> int:
     """Compile maps to typed drivers, reference docs, test vectors and tests.
 
     MAP is a map file, a folder that is searched for *.yaml, or the id of a map (fdc/series-100). Without MAP all of
@@ -68,6 +76,8 @@ def command(*, maps: tuple[str, ...], check: bool, out: Path, folder: Path | Non
     reference docs, with the coverage of each map, is left as it is by a run that leaves out maps which have references.
     """
     started = perf_counter()
+    if project is not None:
+        _check_project(project, check=check)
     paths = find_maps(maps)
     templates = Templates(folder) if folder else None
     if templates and not templates.names:
@@ -81,7 +91,22 @@ def command(*, maps: tuple[str, ...], check: bool, out: Path, folder: Path | Non
         _remember(build, known, whole=not maps)
     tell(safe_lines(written.diff))
     tell(safe_lines(_summary(build, written, out, seconds=perf_counter() - started, check=check)))
+    if project is not None:
+        _start_project(project, out)
     return int(check and bool(written.written or written.removed))
+
+
+def _check_project(name: str, *, check: bool) -> None:
+    if check:
+        refuse("--project writes a file, and with --check nothing is written: leave one of them out")
+    check_name(name)
+
+
+def _start_project(name: str, out: Path) -> None:
+    with raised_as(click.ClickException, FileError):
+        new = start_project(name, out)
+    if new:
+        tell(safe_lines(f"{out / 'pyproject.toml'} is new: pip install -e {shlex.quote(str(out))}\n"))
 
 
 def _build(paths: Sequence[Path], known: build_cache.Cache, templates: Templates | None) -> Build:

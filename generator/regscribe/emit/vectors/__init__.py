@@ -22,12 +22,15 @@ __all__ = ["document", "dumps", "render"]
 
 
 def render(register_map: RegisterMap) -> dict[str, str]:
-    """Return `vectors/<maker>/<family>.json` and `tests/<maker>/test_<family>.py` of a map, as path and text."""
+    """Return `vectors/<maker>/<family>.json` and `tests/<maker>/test_<maker>__<family>.py` of a map, as path and text.
+
+    The maker stands in the name of the module, too: pytest refuses a second module of one name, unless in a package.
+    """
     maker, family = register_map.id.split("/")
     package, module = module_names(register_map.id)
     return {
         f"vectors/{maker}/{family}.json": dumps(document(register_map)) + "\n",
-        f"tests/{package}/test_{module}.py": module_text(register_map),
+        f"tests/{package}/test_{package}__{module}.py": module_text(register_map),
     }
 
 

@@ -15,14 +15,13 @@ HEAD = '''"""The driver against its vectors, and properties that hold for every 
 from pathlib import Path
 
 import pytest
-from hypothesis import given
-from hypothesis import strategies as st
 
-from regscribe.testing import DriverUnderTest, load
+from regscribe.testing import DriverUnderTest, driver_module, load
 from regscribe.testing import properties as hold
-from regscribe_devices.{maker} import {module} as module
 
-VECTORS = load(Path(__file__).parents[2] / "vectors" / {maker_text} / {file_text})
+GENERATED = Path(__file__).parents[2]
+VECTORS = load(GENERATED / "vectors" / {maker_text} / {file_text})
+MODULE = driver_module(GENERATED, "{package}.{module}")
 CLASSES = {classes}
 DRIVERS = [DriverUnderTest(cls, VECTORS) for cls in CLASSES]
 
@@ -65,7 +64,7 @@ def module_text(register_map: RegisterMap) -> str:
     package, module = module_names(register_map.id)
     head = HEAD.format(
         header=header(register_map, prefix="# ", separator="\n# "),
-        maker=package,
+        package=package,
         module=module,
         maker_text=literal(maker),
         file_text=literal(f"{family}.json"),
@@ -86,8 +85,8 @@ def module_text(register_map: RegisterMap) -> str:
 
 def _property(name: str, needed: str, function: str) -> str:
     drivers = f"@models([driver for driver in DRIVERS if driver.{needed}])" if needed else "@every_model"
-    decorators = [drivers, "@hold.each_run", "@given(data=st.data())"]
-    return _test(name, decorators, ["data: st.DataObject"], f"hold.{function}(driver, data)")
+    decorators = [drivers, "@hold.each_run", "@hold.drawn"]
+    return _test(name, decorators, ["data: hold.Data"], f"hold.{function}(driver, data)")
 
 
 def _test(name: str, decorators: Iterable[str], more: Iterable[str], body: str) -> str:
@@ -96,6 +95,6 @@ def _test(name: str, decorators: Iterable[str], more: Iterable[str], body: str) 
 
 
 def _classes(models: Iterable[Model]) -> str:
-    names = [f"module.{model.class_name}" for model in models]
+    names = [f"MODULE.{model.class_name}" for model in models]
     # as `ruff format` has it: a tuple of one stays on its line
     return f"({names[0]},)" if len(names) == 1 else "\n".join(["(", *(f"    {name}," for name in names), ")"])

@@ -108,13 +108,13 @@ def test_the_text_does_not_depend_on_the_hash_seed() -> None:
 
 def test_the_test_module_is_valid_python_for_any_title(compiled: Compiled) -> None:
     found = compiled("- {at: 1, id: level, name: Level}")
-    text = render(found)["tests/example/test_controller.py"]
+    text = render(found)["tests/example/test_example__controller.py"]
     assert isinstance(ast.parse(text), ast.Module)
-    assert "module.ExampleA1," in text
+    assert "MODULE.ExampleA1," in text
     assert "agreement" not in text
 
 
 def test_a_register_with_several_views_adds_the_test_that_they_agree(compiled: Compiled) -> None:
     tables = "views: {two: {base: {type: int16}, x10: {offset: 100, type: int16, factor: 10}}}\n"
     text = render(compiled("- {at: 1, id: level, name: Level, views: two}", tables=tables))
-    assert "hold.agreement" in text["tests/example/test_controller.py"]
+    assert "hold.agreement" in text["tests/example/test_example__controller.py"]

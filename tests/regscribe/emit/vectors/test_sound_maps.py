@@ -12,6 +12,7 @@ import pytest
 
 from regscribe import checks, lower, schema, source
 from regscribe.emit import render
+from regscribe.emit.write import write
 from regscribe.model import RegisterMap, Severity
 from regscribe_runtime.registers import codec
 
@@ -136,14 +137,10 @@ def _compiled(text: str) -> RegisterMap:
 def _generated_tests(text: str, folder: Path, monkeypatch: pytest.MonkeyPatch) -> list[tuple[str, Callable[[], None]]]:
     """The tests that are generated for a map, each ready to be called for each of its models."""
     files = render(_compiled(text))
-    for name, content in files.items():
-        path = folder / name
-        path.parent.mkdir(parents=True, exist_ok=True)
-        path.write_text(content, encoding="utf-8")
-    package = ModuleType("regscribe_devices.test")
-    driver = next(name for name in files if name.startswith("regscribe_devices") and name.endswith("sound.py"))
-    package.sound = _module("regscribe_devices.test.sound", files[driver], folder / driver)  # type: ignore[attr-defined] # made here
-    monkeypatch.setitem(sys.modules, "regscribe_devices.test", package)
+    write(files, folder)
+    for name in ("regscribe_devices.test", "regscribe_devices.test.sound"):
+        monkeypatch.setitem(sys.modules, name, ModuleType(name))  # to be forgotten after the test
+        del sys.modules[name]
     test = next(name for name in files if name.startswith("tests/"))
     module = _module("generated_test", files[test], folder / test)
     found = []

@@ -1,11 +1,6 @@
 """Three wheels (what drivers need, the drivers, the compiler): each is whole, and works without the source tree."""
 
-import os
-import subprocess
-import sys
-import sysconfig
 import tomllib
-import venv
 import zipfile
 from collections.abc import Callable, Iterator
 from pathlib import Path
@@ -13,73 +8,19 @@ from typing import Any
 
 import pytest
 
-ROOT = Path(__file__).parents[2]
-FOLDERS = {"regscribe_runtime": "generator/runtime", "regscribe_devices": "generated", "regscribe": "."}
-"""The import package of each distribution, and the folder of its pyproject file."""
+from .distributions import FOLDERS, ROOT, run
 
 SOURCES = {
     "regscribe_runtime": "generator/runtime/regscribe_runtime",
     "regscribe_devices": "generated/regscribe_devices",
     "regscribe": "generator/regscribe",
 }
-LIBRARIES = {"pymodbus", "serial", "yaml", "_yaml", "jinja2", "markupsafe", "jsonschema", "jsonschema_specifications"}
-LIBRARIES |= {"referencing", "rpds", "attr", "attrs", "click", "rich", "plotille", "pygments", "markdown_it", "mdurl"}
-LIBRARIES |= {"typing_extensions.py", "openpyxl", "et_xmlfile", "defusedxml"}
-
-
-def run(*command: str | Path, cwd: Path) -> str:
-    """Standard output of a command that must succeed, without what would let it see the source tree."""
-    env = {key: value for key, value in os.environ.items() if not key.startswith("PYTHON")}
-    done = subprocess.run(  # noqa: S603 - our own commands
-        list(map(str, command)), cwd=cwd, env=env, capture_output=True, text=True, timeout=120, check=False
-    )
-    assert done.returncode == 0, done.stdout + done.stderr
-    return done.stdout
 
 
 def project(package: str) -> dict[str, Any]:
     path = ROOT / FOLDERS[package] / "pyproject.toml"
     found: dict[str, Any] = tomllib.loads(path.read_text(encoding="utf-8"))["project"]
     return found
-
-
-@pytest.fixture(scope="module")
-def wheels(tmp_path_factory: pytest.TempPathFactory) -> dict[str, Path]:
-    """The wheel of each distribution by its import package."""
-    built = {}
-    for package, folder in FOLDERS.items():
-        out = tmp_path_factory.mktemp(package)
-        run(sys.executable, "-m", "hatchling", "build", "-t", "wheel", "-d", out, cwd=ROOT / folder)
-        (built[package],) = out.glob("*.whl")
-    return built
-
-
-@pytest.fixture(scope="module")
-def environment(
-    wheels: dict[str, Path], tmp_path_factory: pytest.TempPathFactory
-) -> Callable[[set[str], set[str]], Path]:
-    """Make an environment of some wheels and some libraries of this one; its bin folder."""
-
-    def make(packages: set[str], libraries: set[str]) -> Path:
-        folder = tmp_path_factory.mktemp("environment")
-        venv.create(folder, with_pip=False, symlinks=True)
-        (site,) = folder.glob("lib/python*/site-packages")
-        for library in libraries:
-            source = Path(sysconfig.get_path("purelib")) / library
-            if source.exists():
-                (site / library).symlink_to(source)
-        chosen = [wheels[package] for package in sorted(packages)]
-        pip = (sys.executable, "-m", "pip", "--python", folder / "bin/python", "install", "--no-deps")
-        run(*pip, *chosen, cwd=folder)
-        return folder / "bin"
-
-    return make
-
-
-@pytest.fixture(scope="module")
-def installed(environment: Callable[[set[str], set[str]], Path]) -> Path:
-    """All three, with the libraries that they ask for and with theirs."""
-    return environment(set(FOLDERS), LIBRARIES)
 
 
 def source_files(folder: str, pattern: str) -> Iterator[str]:
