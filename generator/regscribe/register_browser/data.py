@@ -2,7 +2,8 @@
 
 The shape, before `sharing` takes values out that occur several times:
 
-    {"format": 1, "maps": [{"id", "title", .., "models": [..], "registers": [..], "groups": [..], "commands": [..]}]}
+    {"format": 1, "encodings": {..},
+     "maps": [{"id", "title", .., "models": [..], "registers": [..], "groups": [..], "commands": [..]}]}
 
 A register (group, command, computed value) has the facts in which all models agree, `models` where not all have it,
 and `variants` where models differ: objects with `models` and the facts that are theirs. One of an array is that of the
@@ -20,6 +21,7 @@ from regscribe.emit.markdown.context import context
 from regscribe.emit.outline import pattern
 from regscribe.export.json import plain
 from regscribe.model import Model, RegisterMap
+from regscribe.register_browser.encodings import encodings
 from regscribe.register_browser.exact import exact
 from regscribe.register_browser.folding import fold
 from regscribe.register_browser.said import about, said
@@ -35,7 +37,7 @@ OF_MODELS = ("name", "description", "class_name")
 
 def document(maps: Sequence[RegisterMap]) -> Json:
     """Return what the page knows of `maps`."""
-    return shared({"format": FORMAT, "maps": [_map(one) for one in maps]})
+    return shared({"format": FORMAT, "encodings": encodings(maps), "maps": [_map(one) for one in maps]})
 
 
 def _map(register_map: RegisterMap) -> Json:

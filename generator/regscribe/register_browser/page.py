@@ -2,7 +2,7 @@
 
 import hashlib
 from base64 import b64encode
-from collections.abc import Sequence
+from collections.abc import Iterable, Iterator, Sequence
 from html import escape
 from importlib.resources import files
 from importlib.resources.abc import Traversable
@@ -21,12 +21,15 @@ CODEC = (
     "terms",
     "words",
     "octets",
+    "moments",
     "limits",
     "decode",
     "encode",
+    "describe",
     "computed",
     "needs",
     "data",
+    "public",
 )
 """The scripts of the arithmetic, which know no page; each uses what those before it define."""
 
@@ -50,14 +53,26 @@ def page(maps: Sequence[RegisterMap]) -> str:
 
 def scripts() -> str:
     """Return all scripts as one, which leaves nothing but `regscribe`, the functions of the codec, behind."""
-    ui = sorted(one.name for one in _assets().joinpath("ui").iterdir() if one.name.endswith(".js"))
-    parts = [codec(), *(asset(f"ui/{name}") for name in ui)]
-    return "(() => {\n'use strict'\n" + "\n".join(parts) + "\n})()\n"
+    return _alone((*_codec(), *_ui()))
 
 
 def codec() -> str:
-    """Return the scripts of the arithmetic alone."""
-    return "\n".join(asset(f"codec/{name}.js") for name in CODEC)
+    """Return the scripts of the arithmetic alone, as `scripts` does."""
+    return _alone(_codec())
+
+
+def _codec() -> Iterator[str]:
+    return (asset(f"codec/{name}.js") for name in CODEC)
+
+
+def _ui() -> Iterator[str]:
+    folder = _assets().joinpath("ui")
+    names = sorted(one.name for one in folder.iterdir()) if folder.is_dir() else []
+    return (asset(f"ui/{name}") for name in names if name.endswith(".js"))
+
+
+def _alone(parts: Iterable[str]) -> str:
+    return "(() => {\n'use strict'\n" + "\n".join(parts) + "\n})()\n"
 
 
 def asset(name: str) -> str:

@@ -32,6 +32,7 @@ function open(document) {
     return Object.fromEntries(Object.entries(value).map(([key, each]) => [key, put(each)]))
   }
   for (const value of document.shared) table.push(put(value))
+  for (const [name, letters] of Object.entries(put(document.encodings))) learn(name, letters)
   return put(document.maps)
 }
 

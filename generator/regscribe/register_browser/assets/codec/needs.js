@@ -1,13 +1,72 @@
+/** What decides about a register, and the requests that read and write it. */
+
 /**
  * What decides what a register means, or which values it takes.
  * @returns {{read: string[], write: string[], givens: string[]}}  paths of registers (what `write` names besides `read`
- *   limits its values), and the ids of givens
+ *   limits its values), and the ids of givens; each first where it counts first
  */
-function needs(register, view) { return { read: [], write: [], givens: [] } }
+function needs(register, view) {
+  const found = { registers: new Set(), givens: new Set() }
+  const ofScales = register.scale.map(({ when, then }) => ({ when, then: { ...then, places: undefined } }))
+  collect([register.when, view.word_order, view.byte_order, view.times, ofScales, register.special_scale], found)
+  collect([register.sentinels.map((one) => one.when), register.valid], found)
+  collect([register.enum?.members?.map((one) => one.when), register.fields.map((one) => one.when)], found)
+  const read = [...found.registers]
+  collect([register.writable?.when, register.range, register.scale], found)
+  const write = [...found.registers].filter((path) => !read.includes(path))
+  collect(register.unit, found)
+  return { read: [...found.registers].filter((path) => !write.includes(path)), write, givens: [...found.givens] }
+}
+
+/** Gather registers and givens from conditions, cases, terms and limits. */
+function collect(value, found) {
+  if (Array.isArray(value)) for (const each of value) collect(each, found)
+  else if (value !== null && typeof value === "object") {
+    if (typeof value.register === "string" && value.register) found.registers.add(value.register)
+    if (typeof value.given === "string" && value.given) found.givens.add(value.given)
+    for (const each of Object.values(value)) collect(each, found)
+  }
+}
+
+const READING = { holding: 3, input: 4, coil: 1, discrete: 2, status: 7 }
+const WRITING = { holding: [6, 16], coil: [5, 15] }
 
 /**
- * The requests of a register's view, as bytes of an RTU frame with its CRC.
+ * The request of a register's view, as bytes of an RTU frame with its CRC.
  * @param {number[]|null} words  what is written; null to read
  * @returns {{frame: number[], function: number}|{refused: string}}
  */
-function frame(map, register, view, unit, words = null) { return { refused: "not yet" } }
+function frame(map, register, view, unit, words = null) {
+  if (!(view.space in READING)) return { refused: `this page makes no requests for the space ${view.space}` }
+  if (register.block) return { refused: `where the block ${register.block} stands, only the device tells` }
+  const supported = map.protocol?.functions ?? []
+  const may = (code) => (!view.functions.length || view.functions.includes(code)) && (!supported.length || supported.includes(code))
+  const codes = words ? (WRITING[view.space] ?? []).filter((code, several) => several || words.length === 1) : [READING[view.space]]
+  const code = codes.find(may)
+  if (code === undefined) return { refused: `no function ${words ? "writes" : "reads"} this view` }
+  const body = [unit, code, ...bodyOf(code, view, words)]
+  const crc = crcOf(body)
+  return { frame: [...body, crc & 255, crc >> 8], function: code }
+}
+
+const pairOf = (word) => [(word >> 8) & 255, word & 255]
+
+function bodyOf(code, view, words) {
+  if (code === 7) return []
+  const place = pairOf(view.address)
+  if (!words) return [...place, ...pairOf(view.words)]
+  if (code === 6) return [...place, ...pairOf(words[0])]
+  if (code === 5) return [...place, words[0] ? 255 : 0, 0]
+  if (code === 15) return [...place, 0, words.length, 1, words.reduce((bits, bit, number) => bits | (bit << number), 0)]
+  return [...place, ...pairOf(words.length), 2 * words.length, ...words.flatMap(pairOf)]
+}
+
+/** The checksum of a frame (polynomial A001, from FFFF), which is sent low byte first. */
+function crcOf(bytes) {
+  let crc = 0xffff
+  for (const byte of bytes) {
+    crc ^= byte
+    for (let bit = 0; bit < 8; bit += 1) crc = crc & 1 ? (crc >> 1) ^ 0xa001 : crc >> 1
+  }
+  return crc
+}
