@@ -42,8 +42,10 @@ POLICY = (
 def page(maps: Sequence[RegisterMap]) -> str:
     """Return the register browser of one or several maps as one HTML file."""
     style, script = asset("style.css"), scripts()
+    heading = one_line(maps[0].title) if len(maps) == 1 else f"Registers of {len(maps)} maps"
     return Template(asset("page.html")).substitute(
-        title=escape(safe(one_line(" · ".join(one.title for one in maps)))),
+        title=escape(safe(f"{heading}: registers" if len(maps) == 1 else heading)),
+        heading=escape(safe(heading)),
         policy=escape(POLICY.format(script=digest(script), style=digest(style))),
         style=style,
         data=embedded(json_text(document(maps))),
@@ -53,7 +55,7 @@ def page(maps: Sequence[RegisterMap]) -> str:
 
 def scripts() -> str:
     """Return all scripts as one, which leaves nothing but `regscribe`, the functions of the codec, behind."""
-    return _alone((*_codec(), *_ui()))
+    return _alone((*_codec(), _alone(_ui())))  # names of the page hide none of the arithmetic
 
 
 def codec() -> str:
@@ -66,13 +68,12 @@ def _codec() -> Iterator[str]:
 
 
 def _ui() -> Iterator[str]:
-    folder = _assets().joinpath("ui")
-    names = sorted(one.name for one in folder.iterdir()) if folder.is_dir() else []
+    names = sorted(one.name for one in _assets().joinpath("ui").iterdir())
     return (asset(f"ui/{name}") for name in names if name.endswith(".js"))
 
 
 def _alone(parts: Iterable[str]) -> str:
-    return "(() => {\n'use strict'\n" + "\n".join(parts) + "\n})()\n"
+    return ";(() => {\n'use strict'\n" + "\n".join(parts) + "\n})()\n"
 
 
 def asset(name: str) -> str:

@@ -3,7 +3,7 @@
 The page draws pictures and computes addresses of elements itself; it has all the rest from here.
 """
 
-from collections.abc import Container, Iterable, Sequence
+from collections.abc import Collection, Iterable, Sequence
 from dataclasses import replace
 from typing import Any
 
@@ -115,7 +115,7 @@ def _examples(context: PageContext, key: str = "", elements: Sequence[Register] 
     return tuple(replace(one, title=f"Worked examples: {one.title.lower()}") for one in found)
 
 
-def _shows(example: ValueExample | FrameExample | TimingExample, key: str, addresses: Container[int]) -> bool:
+def _shows(example: ValueExample | FrameExample | TimingExample, key: str, addresses: Collection[int | None]) -> bool:
     if isinstance(example, ValueExample):
         return pattern(example.register) == key
     if isinstance(example, TimingExample):
