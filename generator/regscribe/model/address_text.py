@@ -29,9 +29,12 @@ def readings(text: str) -> tuple[AddressReading, ...]:
     """Return all meanings of a written address, the plainest first; none for what is no address.
 
     `4049` and `0xFD1` (also `FD1h`, `$FD1`) are wire addresses of any space. `44050` is the wire address 44050 and,
-    as Modicon writes it, holding register 4049.
+    as Modicon writes it, holding register 4049. `holding:4049` names the space (`input`, `coil`, `discrete`) as well.
     """
     text = text.strip()
+    name, colon, rest = text.partition(":")
+    if colon:
+        return _in_space(name.casefold(), rest)
     if found := _HEX.fullmatch(text):
         address = int(found[1] or found[2], 16)
         return (AddressReading(address, None, "hexadecimal"),) if address <= LAST else ()
@@ -39,6 +42,13 @@ def readings(text: str) -> tuple[AddressReading, ...]:
         return ()
     plain = [AddressReading(int(text), None, "decimal")] if int(text) <= LAST else []
     return (*plain, *_modicon_readings(text))
+
+
+def _in_space(name: str, text: str) -> tuple[AddressReading, ...]:
+    """The meanings of a written address behind the name of a space: a wire address, never a number of Modicon's."""
+    named = [space for space in MODICON if space == name]
+    plain = [one for one in readings(text) if one.space is None]
+    return tuple(one._replace(space=space) for space in named for one in plain)
 
 
 def _modicon_readings(text: str) -> list[AddressReading]:

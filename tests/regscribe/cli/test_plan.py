@@ -109,7 +109,7 @@ def test_arrays_and_all_registers_can_be_named(planned: Cli) -> None:
 @pytest.mark.parametrize(
     ("arguments", "said"),
     [
-        (["--model", "M1", "setpiont"], "there is no register `setpiont` of M1; did you mean `setpoint`?"),
+        (["--model", "M1", "setpiont"], "there is no register or group `setpiont` in M1; did you mean `setpoint`?"),
         (["--model", "M1", "--group", "contrl"], "there is no group `contrl` of M1; did you mean `control`?"),
         (["--model", "M9", "--all"], "there is no model `M9` in acme/oven"),
         (["--model", "M1", "key"], "`key` of M1 can only be written"),

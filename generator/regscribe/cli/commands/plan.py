@@ -15,7 +15,8 @@ from regscribe.emit.words import span_words
 from regscribe.model import RegisterMap, parse
 from regscribe.model.located import arrays_in
 from regscribe.planned_model import PlannedModel
-from regscribe.tools.live.errors import unknown
+from regscribe.tools.live.errors import TargetError, unknown
+from regscribe.tools.live.names import NamedRegisters
 from regscribe_runtime.operations.prepared_read import laid_out
 from regscribe_runtime.planning import plan
 from regscribe_runtime.planning.cost import Cost
@@ -24,6 +25,7 @@ from regscribe_runtime.planning.read_order import ReadOrder
 from regscribe_runtime.planning.read_places import read_places
 from regscribe_runtime.values.blocks import bases_in
 from regscribe_runtime.values.serial_line import FORMATS, SerialLine
+from regscribe_runtime.values.terms import registers_in
 
 COLUMNS = ("FC", "ADDRESSES", "WANTED", "CARRIED", "BYTES", "MS", "APART BECAUSE", "REGISTERS")
 MOST_NAMED = 3
@@ -67,7 +69,8 @@ def command(  # noqa: PLR0913 - one parameter an option
 ) -> None:
     """Show the requests that read registers of a model at the least cost on a line, and why they are not one.
 
-    ID is a register, or an array or element of one; MAP is a map file or the id of a map (fdc/series-100). The plan is
+    ID is a register, a group, an array or element of one, a computed value, or an address, as `read` takes them; MAP
+    is a map file or the id of a map (fdc/series-100). The plan is
     that of the model's driver on such a line, in the order of sending: what the meaning of others depends on (decimals,
     input type, word order) is read behind them. Times are the expected ones: the mean of the
     manual's shortest and longest. Where a device tells the base of blocks, an assumed one counts unless --base says
@@ -138,23 +141,28 @@ def _selected(subject: PlannedModel, ids: Sequence[str], groups: Sequence[str], 
         refuse("say what to read: --all, --group ID, or ids of registers")
     if everything:
         return subject.readable
-    members = {one.id: one.members for one in subject.model.groups}
-    paths: list[str] = []
+    known = _names(subject)
     for group in groups:
-        if group not in members:
-            refuse(unknown("group", group, members, where=f"of {subject.model.name}"))
-        paths += _below(subject.readable, members[group])
-    for name in ids:
-        if name in subject.registers and subject.registers[name].access.readable:
-            paths.append(name)  # also what is read only where it is named
-        elif below := _below(subject.readable, [name]):
-            paths += below
-        elif _below(subject.registers, [name]):
-            refuse(f"`{name}` of {subject.model.name} can only be written")
-        else:
-            known = [*subject.readable, *(path.partition("[")[0] for path in subject.readable)]
-            refuse(unknown("register", name, known, where=f"of {subject.model.name}"))
-    return list(dict.fromkeys(paths))
+        if group not in known.groups:
+            refuse(unknown("group", group, known.groups, where=f"of {subject.model.name}"))
+    with raised_as(click.UsageError, TargetError):
+        chosen = [choice for name in (*groups, *ids) for choice in known.choices(name)]
+    for choice in chosen:
+        if choice.note:
+            remark(choice.note)
+    return list(dict.fromkeys(path for one in chosen for path in known.computed.get(one.path, (one.path,))))
+
+
+def _names(subject: PlannedModel) -> NamedRegisters:
+    """What registers of a model are called, as the commands that ask a device call them."""
+    registers, model = subject.registers, subject.model
+    return NamedRegisters(
+        model=model.name,
+        registers=registers,
+        groups={one.id: below for one in model.groups if (below := _below(subject.readable, one.members))},
+        computed={one.id: registers_in(one.term) for one in model.computed},
+        parts=lambda path: [part.id for part in registers[path].fields] if path in registers else (),
+    )
 
 
 def _below(paths: Iterable[str], members: Sequence[str]) -> list[str]:

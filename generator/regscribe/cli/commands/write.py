@@ -11,7 +11,7 @@ from regscribe.cli.shared.long_work import shielded
 from regscribe.cli.shared.output import print_json, remark, show_table
 from regscribe.cli.shared.target_options import HELP, confirm_option, identity_option, opened, target_options
 from regscribe.tools.live import names, value_text
-from regscribe.tools.live.changed_parts import change_parts, names_parts
+from regscribe.tools.live.changed_parts import change_parts, names_parts, part_text
 from regscribe.tools.live.dry_run import dry
 from regscribe.tools.live.errors import TargetError, unknown
 from regscribe.tools.live.reading import held_of
@@ -23,7 +23,8 @@ from regscribe_runtime.operations import tasks
 @click.command(
     help=f"""Write one register: a number (150.5, or with its unit "150.5 °F", which must be the device's own), a member
 of an enum by name, label or code. Of a word of flags or fields those that are named are changed, the others stay as
-they are: `HEATER,FAN=off`, `mode=2,limit=3` (a number is the whole word, `none` clears all flags).\n\n{HELP}""",
+they are: `HEATER,FAN=off`, `mode=2,limit=3` (a number is the whole word, `none` clears all flags); one of them is a
+name of its own, too: `status.fan off`. NAME may be the address that a register begins at.\n\n{HELP}""",
     epilog='Example: regscribe write oven setpoint "150.5 °F"\n\n'
     "Exit code 0: written, or held already, 1: refused (by range, access, condition, the device, or for want of "
     "--confirm), 2: wrong usage, 3: nobody answers, 4: it broke off and what the device holds is unknown.",
@@ -56,9 +57,10 @@ def command(  # noqa: PLR0913 - the options of the command
     identity: bool,
 ) -> int:
     """Write one register."""
-    find = partial(_writable, name=name, view=view)
+    find = partial(_writable, name=name, value=value, view=view)
     with opened(target, identity=identity, check=find) as device, shielded() as shield:
-        register = find(type(device))
+        register, value, view = find(type(device))
+        name = register.path
         unit = device.run(tasks.read_unit(register))
         parts = names_parts(register, value)
         meant = None if parts else value_text.parse(register, value, current_unit=unit)
@@ -89,14 +91,18 @@ def command(  # noqa: PLR0913 - the options of the command
     return shield.code
 
 
-def _writable(driver: type[BareDevice], name: str, view: str | None) -> Register[Any]:
-    register = names.register_named(driver, name)
+def _writable(
+    driver: type[BareDevice], name: str, value: str, view: str | None
+) -> tuple[Register[Any], str, str | None]:
+    """The register that a name means, what to write to it, and in which view."""
+    choice = names.to_write(driver, name)
+    register, view = driver.registers[choice.path], view or choice.view or None
     if view is not None and view not in register.view_names:
         raise TargetError(unknown("view", view, register.view_names, where=f"of {register.path}"))
     if register.access == "r":
-        raise ValueRefused(name, "the register is read-only")
+        raise ValueRefused(register.path, "the register is read-only")
     try:
         register.write_view(view)
     except ValueError as error:  # its functions do not write
         raise TargetError(str(error)) from None
-    return register
+    return register, part_text(register, choice.part, value) if choice.part else value, view

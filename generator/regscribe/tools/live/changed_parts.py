@@ -4,7 +4,7 @@ from collections.abc import Mapping
 from typing import Any
 
 from regscribe.tools.live.reading import left_out
-from regscribe.tools.live.value_text import FALSE, TRUE, flag_of, whole_of, with_part
+from regscribe.tools.live.value_text import FALSE, TRUE, WORDS, flag_of, whole_of, with_part
 from regscribe_runtime import Flags, Register, ValueRefused, Word
 from regscribe_runtime.operations import tasks
 from regscribe_runtime.operations.session import Operation, Session, Task
@@ -16,11 +16,25 @@ def names_parts(register: Register[Any], text: str) -> bool:
 
     Of fields that cannot be read it must name all: ValueRefused if it does not.
     """
-    if register.kind not in {"flags", "fields"} or whole_of(text.strip()) is not None:
+    if register.kind not in WORDS or whole_of(text.strip()) is not None:
         return False
     if register.kind == "fields" and not register.access.readable:
         _check_all_named(register, text)
     return register.access.readable
+
+
+def part_text(register: Register[Any], part: str, value: str) -> str:
+    """What `write` takes of the word for one part of it: `run=true`; ValueRefused for a value that no part has."""
+    if not register.access.readable:
+        raise ValueRefused(
+            register.path, f"it cannot be read, so `{part}` cannot be written alone: write the whole word"
+        )
+    whole = f"{register.path}.{part}"
+    if register.kind == "flags" and value.strip().casefold() not in TRUE | FALSE:
+        raise ValueRefused(whole, f"`{value[:60]}` is neither true nor false")
+    if "," in value:
+        raise ValueRefused(whole, f"`{value[:60]}` is more than one value")
+    return f"{part}={value.strip()}"
 
 
 def _check_all_named(register: Register[Any], text: str) -> None:

@@ -4,16 +4,29 @@ from collections.abc import Callable, Iterable, Mapping, Sequence
 from types import MappingProxyType
 from typing import Any, NamedTuple
 
-from regscribe.tools.live.names import Readable
-from regscribe.tools.live.value_text import Plain, as_text, is_number, show, text_of
-from regscribe_runtime import Computed, Flags, NotPresent, OutOfRange, Register, RegscribeError, Snapshot, Word
+from regscribe.model.address_text import AddressReading
+from regscribe.tools.live.names import Excerpt, Readable
+from regscribe.tools.live.value_text import Plain, as_text, is_number, part_of, show, text_of
+from regscribe_runtime import (
+    Computed,
+    ExceptionAnswer,
+    Flags,
+    NotPresent,
+    OutOfRange,
+    Register,
+    RegscribeError,
+    Snapshot,
+    Word,
+)
 from regscribe_runtime.errors import ValueNotDecodable
 from regscribe_runtime.operations import tasks
 from regscribe_runtime.operations.compute import computed
-from regscribe_runtime.operations.read import know
+from regscribe_runtime.operations.read import NO_VALUE, know
 from regscribe_runtime.operations.session import Operation, Session, Task
 from regscribe_runtime.registers.presence import missing
 from regscribe_runtime.values.conditions import choose, registers_of
+from regscribe_runtime.values.wire_types import Space
+from regscribe_runtime.wire.requests import Request
 
 
 class RegisterReading(NamedTuple):
@@ -43,14 +56,43 @@ def readings(wanted: Sequence[Readable]) -> Task[tuple[RegisterReading, ...]]:
     def task(session: Session) -> Operation[tuple[RegisterReading, ...]]:
         along = {path for one in wanted if isinstance(one, Computed) for path in one.needs}
         asked = [one for one in wanted if isinstance(one, Register)]
+        asked += [one.register for one in wanted if isinstance(one, Excerpt) and not one.view]
         asked += [session.registers[path] for path in sorted(along)]
         snapshot = yield from read_with(asked, shown_needs)(session)
-        return tuple(_reading(one, snapshot, session.givens) for one in wanted)
+        found = []
+        for one in wanted:
+            if isinstance(one, Excerpt) and one.view:
+                found.append((yield from _in_view(session, one)))
+            else:
+                found.append(_reading(one, snapshot, session.givens))
+        return tuple(found)
 
     return task
 
 
+def word_at(place: AddressReading) -> Task[tuple[int, ...]]:
+    """Read the word (or the bit) at an address, whatever it is."""
+
+    def task(session: Session) -> Operation[tuple[int, ...]]:
+        space = place.space or Space.HOLDING
+        return (yield from session.exchange(Request(space.read_function, place.address)))
+
+    return task
+
+
+def _in_view(session: Session, one: Excerpt) -> Operation[RegisterReading]:
+    """A register in another view than the one that it is read in by name."""
+    try:
+        value = yield from tasks.read(one.register, one.view)(session)
+        needed = yield from tasks.read_many([session.registers[path] for path in shown_needs(one.register)])(session)
+    except (ExceptionAnswer, *NO_VALUE) as error:
+        return RegisterReading(one.path, None, "", "", error)
+    return _shown(one.path, one.register, value, needed.valid, session.givens)
+
+
 def _reading(one: Readable, snapshot: Snapshot, givens: Mapping[str, Any]) -> RegisterReading:
+    if isinstance(one, Excerpt):
+        return _part(one, snapshot, givens)
     unit = one.unit if isinstance(one, Computed) else unit_of(one, snapshot.valid, givens)
     try:
         if isinstance(one, Computed):
@@ -59,9 +101,33 @@ def _reading(one: Readable, snapshot: Snapshot, givens: Mapping[str, Any]) -> Re
         value = snapshot[one.path]
     except RegscribeError as error:
         return RegisterReading(one.path, None, "", unit, error)
-    absent = left_out(one, value, snapshot.valid, givens)
-    plain = show(one, value, absent)
-    return RegisterReading(one.path, plain, as_text(one, value, absent), unit if is_number(plain) else "", None, absent)
+    return _shown(one.path, one, value, snapshot.valid, givens)
+
+
+def _part(one: Excerpt, snapshot: Snapshot, givens: Mapping[str, Any]) -> RegisterReading:
+    """One flag or field of a word that was read."""
+    try:
+        value = snapshot[one.register.path]
+        gone = missing(one.register.path, one.register.partial, snapshot.valid, givens)
+        if isinstance(value, Flags) and one.part in gone:
+            raise gone[one.part]
+        plain = part_of(one.register, value, one.part)
+    except RegscribeError as error:
+        return RegisterReading(one.path, None, "", "", error)
+    return RegisterReading(one.path, plain, text_of(plain), "", None)
+
+
+def _shown(
+    name: str,
+    register: Register[Any],
+    value: Any,  # noqa: ANN401 - of any register
+    state: Mapping[str, Any],
+    givens: Mapping[str, Any],
+) -> RegisterReading:
+    absent = left_out(register, value, state, givens)
+    plain = show(register, value, absent)
+    unit = unit_of(register, state, givens) if is_number(plain) else ""
+    return RegisterReading(name, plain, as_text(register, value, absent), unit, None, absent)
 
 
 def left_out(

@@ -36,6 +36,8 @@ _MORE_DIGITS = re.compile(r"[0-9_.,'xX]|\s[\s0-9_.,']*$")
 MOST_EXACT = 2.0**53
 """Up to here a float tells whole numbers apart."""
 _UNITS = {"degc": "°C", "degf": "°F", "c": "°C", "f": "°F", "℃": "°C", "℉": "°F", "k": "K", "percent": "%"}
+WORDS = frozenset({"flags", "fields"})
+"""Kinds of registers that have parts with names."""
 TRUE, FALSE = frozenset({"true", "on", "yes", "1"}), frozenset({"false", "off", "no", "0"})
 
 
@@ -116,6 +118,21 @@ def choices(register: Register[Any]) -> tuple[str, ...]:
     if kind == "fields":
         return tuple(f"{name}=" for name in _members_of(register).parts)
     return tuple(member.name for member in register.value_type.special or ())
+
+
+def parts(register: Register[Any]) -> tuple[str, ...]:
+    """The names of the flags or fields of a word; none for another register."""
+    return tuple(name.removesuffix("=") for name in choices(register)) if register.kind in WORDS else ()
+
+
+def part_of(register: Register[Any], value: Any, part: str) -> Plain:  # noqa: ANN401 - a value of the register
+    """One flag or field of a word, plain; SensorFault, NotPresent or OutOfRange where it has no value."""
+    if isinstance(value, Flags):
+        return bool(int(value) & int(flag_of(register.path, type(value), part)))
+    found = dict(value)[part]
+    if isinstance(found, SensorFault | NotPresent | OutOfRange):
+        raise found
+    return found.name if isinstance(found, Choice) else found
 
 
 def _members_of(register: Register[Any]) -> Any:  # noqa: ANN401 - members of enums, flags or a word of fields
