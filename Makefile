@@ -60,13 +60,13 @@ format: $(INSTALLED) ## format the code
 bench: $(INSTALLED) ## measure against the budgets and against other tools, side by side
 	$(BIN)/python tests/system/bench/run.py
 
-fuzz: $(INSTALLED) ## random maps in thousands (FUZZ_MAPS=..): drivers, reference, simulator, vectors, plans and generated tests must agree
+fuzz: $(INSTALLED) ## random maps in thousands (FUZZ_MAPS=..): drivers, reference, simulator, vectors, plans, generated tests and calculator must agree
 	$(BIN)/pytest -q -m slow tests/conformance/test_differential.py \
-		tests/conformance/test_plans.py tests/conformance/test_properties.py
+		tests/conformance/test_plans.py tests/conformance/test_properties.py tests/conformance/test_browser_random.py
 
 conformance: $(INSTALLED) ## what the language means, as bytes and values: the cases of tests/conformance, by everybody who is judged
 	$(BIN)/pytest -q -n 2 -m "not slow" tests/conformance
-	$(BIN)/pytest -q -m slow tests/conformance/test_matrix.py tests/conformance/test_matrix_keys.py
+	$(BIN)/pytest -q -m slow tests/conformance/test_matrix.py tests/conformance/test_matrix_keys.py tests/conformance/test_browser_mutants.py
 
 mutate: $(INSTALLED) ## break scales, codes, addresses, orders and limits: the tests must notice each
 	$(BIN)/python tests/system/mutate/run.py

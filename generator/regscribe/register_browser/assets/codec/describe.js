@@ -34,6 +34,6 @@ function describePart(field, word, known) {
   const found = { field, bits, set: bits > 0n, exists, valid: true, text: "n" in part ? show(part) : (part.label ?? part.id) }
   if (!("n" in part)) return { ...found, fault: part }
   found.valid = !field.valid || liesIn([{ low: field.valid[0], high: field.valid[1] }], part, stated, compare)
-  const member = field.enum?.members?.find((one) => equal(stated(one.code), part))
-  return member ? { ...found, member } : found
+  const member = told(() => existingMembers(field, known).find((one) => equal(stated(one.code), part)))
+  return member?.id ? { ...found, member } : found
 }

@@ -11,11 +11,10 @@ function needs(register, view) {
   collect([register.when, view.word_order, view.byte_order, view.times, ofScales, register.special_scale], found)
   collect([register.sentinels.map((one) => one.when), register.valid], found)
   collect([register.enum?.members?.map((one) => one.when), register.fields.map((one) => one.when)], found)
+  collect(register.unit, found)
   const read = [...found.registers]
   collect([register.writable?.when, register.range, register.scale], found)
-  const write = [...found.registers].filter((path) => !read.includes(path))
-  collect(register.unit, found)
-  return { read: [...found.registers].filter((path) => !write.includes(path)), write, givens: [...found.givens] }
+  return { read, write: [...found.registers].slice(read.length), givens: [...found.givens] }
 }
 
 /** Gather registers and givens from conditions, cases, terms and limits. */

@@ -9,6 +9,7 @@ class NotHere extends Error {
 }
 
 const NOTHING = null
+const HALF_A_PAIR = /\p{Surrogate}/u
 const isMoment = (kind) => kind === "datetime" || kind === "date" || kind === "time"
 
 /** What bytes (the first letter, or the most significant, first) say; null where that is nothing. */
@@ -121,7 +122,7 @@ function decodedText(encoding, bytes) {
 }
 
 function encodedText(encoding, text) {
-  if (!text.isWellFormed()) return NOTHING
+  if (HALF_A_PAIR.test(text)) return NOTHING
   if (encoding === "utf-8") return [...new TextEncoder().encode(text)]
   const units = Array.from({ length: text.length }, (_, place) => text.charCodeAt(place))
   if (encoding === "utf-16") return units.flatMap((unit) => [unit >> 8, unit & 255])
@@ -142,7 +143,7 @@ function decodedPairs(bytes) {
   if (bytes.length % 2) return NOTHING
   const units = Array.from({ length: bytes.length / 2 }, (_, place) => 256 * bytes[2 * place] + bytes[2 * place + 1])
   const text = String.fromCharCode(...units)
-  return text.isWellFormed() ? text : NOTHING
+  return HALF_A_PAIR.test(text) ? NOTHING : text
 }
 
 function tableOf(encoding) {
