@@ -5,6 +5,7 @@ takes for what it was, `save` writes whole or not at all. Every mistake is a Fil
 """
 
 import os
+import sys
 import tempfile
 from collections.abc import Mapping, Sequence
 from contextlib import suppress
@@ -29,7 +30,16 @@ class FileError(Exception):
 
 
 def read(path: Path, *, language: str, what: str) -> Document:
-    """The document in a file; `language` names its schema, `what` is how a message calls such a file (a backup)."""
+    """The document in a file (`-`: standard input).
+
+    `language` names its schema, `what` is how a message calls such a file (a backup).
+    """
+    if str(path) == "-":
+        content = sys.stdin.buffer.read(MOST_BYTES + 1)
+        named = "standard input"
+        return _checked(
+            *source.parse(content, name=named, escapes=True), language=language, what=f"{named} is no {what}"
+        )
     try:
         size = path.stat().st_size
     except FileNotFoundError:

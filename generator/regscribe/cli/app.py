@@ -1,7 +1,6 @@
 """The `regscribe` command: its table of commands, and the exit code and message of every exception.
 
-Exit codes: 0 clean, 1 findings (or a device, port or directory that does not play along), 2 usage, 3 nobody answers,
-4 a write broke off and what the device holds is unknown (see `failure`), 130 Ctrl-C, 141 nobody reads the output.
+The codes stand in `exit_codes`.
 """
 
 import gc
@@ -13,12 +12,16 @@ from contextlib import suppress
 from difflib import get_close_matches
 from importlib import import_module
 from pathlib import Path
+from time import perf_counter
 from typing import NoReturn
 
 import click
 from click.shell_completion import CompletionItem
 
 from regscribe import __version__
+from regscribe.cli.shared.exit_codes import CLOSED_PIPE, INTERNAL, INTERRUPTED, OUTPUT, USAGE
+from regscribe.cli.shared.global_options import with_global_options
+from regscribe.cli.shared.output import detail
 from regscribe.visible import safe, safe_lines
 
 COMMANDS = {
@@ -52,17 +55,18 @@ COMMANDS = {
 }
 """Name and help of each command, whose module `regscribe.cli.commands.<name>` is imported only to run it."""
 
-INTERRUPTED, CLOSED_PIPE = 130, 141
-"""128 + SIGINT or SIGPIPE, as in a shell; a reader that went away (`| head`) is no error."""
-
-UNREADABLE = 2
-
 MOST_TEXT = 300
 """Most characters of an error's own text that are shown: it may hold a whole map."""
 
 
 class ClosedPipeError(Exception):
     """The reader of the output went away; click would hide a BrokenPipeError behind an exit code of its own."""
+
+
+class ClosedOutputError(click.ClickException):
+    """There is no standard output."""
+
+    exit_code = OUTPUT
 
 
 class LazyCommands(click.Group):
@@ -77,7 +81,7 @@ class LazyCommands(click.Group):
         if cmd_name not in COMMANDS:
             return None
         command: click.Command = import_module(f"regscribe.cli.commands.{cmd_name}").command
-        return command
+        return with_global_options(command)
 
     def format_commands(self, ctx: click.Context, formatter: click.HelpFormatter) -> None:  # noqa: ARG002 - click's
         """List the commands from the table, without importing them."""
@@ -93,9 +97,11 @@ class LazyCommands(click.Group):
 
     def invoke(self, ctx: click.Context) -> object:
         """Run the command; ClosedPipeError if nobody reads its output any more."""
+        started = perf_counter()
         try:
             result: object = super().invoke(ctx)
             sys.stdout.flush()
+            detail(f"done in {perf_counter() - started:.2f} s")
         except BrokenPipeError:
             raise ClosedPipeError from None
         return result
@@ -122,10 +128,11 @@ class LazyCommands(click.Group):
     context_settings={"help_option_names": ["-h", "--help"], "max_content_width": 100},
     epilog="Example: regscribe check maps/",
 )
-@click.version_option(__version__, message="%(prog)s %(version)s")
-@click.option("--debug", is_flag=True, envvar="REGSCRIBE_DEBUG", help="Show the traceback of an internal error.")
-def regscribe(*, debug: bool) -> None:
+def regscribe() -> None:
     """Compile Modbus register maps: one YAML file becomes typed drivers, docs, test vectors and a simulator."""
+
+
+with_global_options(regscribe, hidden=False)
 
 
 def main() -> NoReturn:
@@ -166,7 +173,7 @@ def _carry_out(arguments: Sequence[str]) -> int:
 
 
 def _replace_closed_streams() -> None:
-    """Open the null device for standard streams that are closed (None in Python); UsageError without an output.
+    """Open the null device for standard streams that are closed (None in Python); ClosedOutputError without an output.
 
     In this order each takes its own number, so that no port or file is opened under the number of a stream.
     """
@@ -176,7 +183,7 @@ def _replace_closed_streams() -> None:
         setattr(sys, name, Path(os.devnull).open(mode, errors="backslashreplace"))  # noqa: SIM115 - open to the end
     if "stdout" in closed:
         message = "standard output is closed, so nothing was done"
-        raise click.UsageError(message)
+        raise ClosedOutputError(message)
 
 
 def _forget_output() -> None:
@@ -191,13 +198,13 @@ def _refused_by_the_system(error: OSError) -> int:
         _forget_output()
     where = "standard output" if error.filename is None else os.fsdecode(error.filename)
     click.ClickException(safe(f"{where[:MOST_TEXT]}: {error.strerror or error}")).show()
-    return UNREADABLE
+    return OUTPUT if error.filename is None else USAGE
 
 
 def _internal_error(error: Exception, *, debug: bool) -> int:
     if debug:
         traceback.print_exception(error)
-        return 1
+        return INTERNAL
     last = traceback.extract_tb(error.__traceback__)[-1]
     where = f"{Path(last.filename).name}:{last.lineno}"
     what = safe(f"{type(error).__name__}: {error}"[:MOST_TEXT])
@@ -207,4 +214,4 @@ def _internal_error(error: Exception, *, debug: bool) -> int:
         "output of the same command with `regscribe --debug ...`.",
         err=True,
     )
-    return 1
+    return INTERNAL

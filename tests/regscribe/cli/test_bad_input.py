@@ -166,9 +166,9 @@ def test_an_internal_error_asks_for_a_report_without_a_traceback(
         message = "boom"
         raise RuntimeError(message)
 
-    monkeypatch.setattr("regscribe.cli.commands.check.compile_map", broken)
+    monkeypatch.setattr("regscribe.cli.shared.compiled_maps.compile_map", broken)
     result = cli("check")
-    assert result.code == 1
+    assert result.code == 70
     assert "internal error: RuntimeError: boom (test_bad_input.py:" in result.err
     assert "report it" in result.err
 
@@ -181,8 +181,8 @@ def test_an_internal_error_shows_its_traceback_on_request(
         message = "boom"
         raise RuntimeError(message)
 
-    monkeypatch.setattr("regscribe.cli.commands.check.compile_map", broken)
+    monkeypatch.setattr("regscribe.cli.shared.compiled_maps.compile_map", broken)
     if by == "environment":
         monkeypatch.setenv("REGSCRIBE_DEBUG", "1")
-    assert app.run(["check"] if by == "environment" else ["--debug", "check"]) == 1
+    assert app.run(["check"] if by == "environment" else ["--debug", "check"]) == 70
     assert "Traceback (most recent call last)" in capsys.readouterr().err

@@ -143,7 +143,7 @@ def test_a_full_disk_behind_the_output_of_any_command_is_said(
     with Path("/dev/full").open("w", encoding="utf-8") as full, monkeypatch.context() as patched:
         patched.setattr(sys, "stdout", full)
 
-        assert run(called(name, link)) == 2
+        assert run(called(name, link)) == 74
 
     said = capsys.readouterr().err
     assert "standard output: No space left on device" in said

@@ -189,7 +189,7 @@ def test_a_strange_argument_is_an_error_of_usage(
     said = _said(capsys)
     assert code in {1, 2, 3}
     assert "internal error" not in said
-    assert "Error" in said or "error" in said
+    assert "rror" in said or "there is no frame" in said
 
 
 def _command(*arguments: str) -> list[str]:
@@ -213,7 +213,7 @@ def test_a_full_disk_behind_the_output_is_said(arguments: list[str]) -> None:
         found = subprocess.run(  # noqa: S603 (our own program)
             _command(*arguments), stdout=full, stderr=subprocess.PIPE, text=True, check=False, env=ENVIRONMENT
         )
-    assert found.returncode == 2
+    assert found.returncode == 74
     assert "standard output: No space left on device" in found.stderr
     assert "internal" not in found.stderr
     assert "Exception ignored" not in found.stderr
@@ -225,10 +225,10 @@ def test_a_full_disk_behind_the_output_is_said(arguments: list[str]) -> None:
 def test_a_closed_output_is_said_and_nothing_is_done(arguments: list[str], tmp_path: Path) -> None:
     put_map(tmp_path)
     found = _with_streams(">&-", arguments, tmp_path)
-    assert found.returncode == 2
+    assert found.returncode == 74
     assert found.stderr == "Error: standard output is closed, so nothing was done\n"
     assert not (tmp_path / "out").exists()
-    assert _with_streams(">&- 2>&-", arguments, tmp_path).returncode == 2
+    assert _with_streams(">&- 2>&-", arguments, tmp_path).returncode == 74
 
 
 @pytest.mark.parametrize(

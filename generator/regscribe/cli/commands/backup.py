@@ -4,8 +4,10 @@ from pathlib import Path
 
 import click
 
-from regscribe.cli.shared.live_report import USAGE, Failure, heading, refused_if
-from regscribe.cli.shared.output import print_json, remark, tell
+from regscribe.cli.shared.exit_codes import USAGE
+from regscribe.cli.shared.live_report import Failure, heading, refused_if
+from regscribe.cli.shared.output import alert, detail, print_json, remark, tell
+from regscribe.cli.shared.output_file import none_for_stdout
 from regscribe.cli.shared.settings_common import settings_reported, taken
 from regscribe.cli.shared.target_options import HELP, identity_option, opened, target_options
 from regscribe.tools import settings
@@ -14,12 +16,14 @@ from regscribe.tools.live.target import Target
 
 @click.command(
     help=f"""Keep all settings of a device in FILE: values by name with their units, and the words that transmit them,
-in readable YAML; without FILE on standard output.\n\n{HELP}""",
+in readable YAML; without FILE, or with -, on standard output.\n\n{HELP}""",
     epilog="Example: regscribe backup oven oven.yaml\n\n"
     "Exit code 0: kept, 1: the device refuses, 2: wrong usage or the file cannot be written, 3: nobody answers.",
 )
 @target_options
-@click.argument("path", type=click.Path(path_type=Path, dir_okay=False), required=False, metavar="[FILE]")
+@click.argument(
+    "path", type=click.Path(path_type=Path, dir_okay=False), required=False, metavar="[FILE]", callback=none_for_stdout
+)
 @click.option("--force", is_flag=True, help="Replace a file that is there.")
 @identity_option
 def command(*, target: Target, as_json: bool, path: Path | None, force: bool, identity: bool) -> int:
@@ -31,6 +35,7 @@ def command(*, target: Target, as_json: bool, path: Path | None, force: bool, id
         text = settings.to_text(backup)
         if path is not None:
             settings.save(path, text)
+            detail(f"wrote {path}")
     failed = {name: saved.error for name, saved in backup.settings() if saved.value is None}
     count = len(list(backup.settings()))
     if as_json:
@@ -40,7 +45,7 @@ def command(*, target: Target, as_json: bool, path: Path | None, force: bool, id
     else:
         remark(f"{count} settings of {target} kept in {path}")
     for name, error in failed.items():
-        remark(f"{name} holds no value: {error}")
+        alert(f"{name} holds no value: {error}")
     return refused_if(0 < len(failed) == count)
 
 

@@ -12,16 +12,16 @@ from regscribe.breaking.change import Change, Level, Verdict, verdict_of
 from regscribe.breaking.compare import Comparison, compare
 from regscribe.checks import NOTHING_WAIVED
 from regscribe.cli.shared.changes_text import as_json, as_text
+from regscribe.cli.shared.compiled_maps import compiled
 from regscribe.cli.shared.diagnostic_text import findings
 from regscribe.cli.shared.earlier_maps import Earlier, earlier_maps
+from regscribe.cli.shared.exit_codes import USAGE
 from regscribe.cli.shared.map_arguments import find_maps
 from regscribe.cli.shared.output import show, tell, warn
 from regscribe.cli.shared.report_formats import as_github, as_sarif
 from regscribe.model import Diagnostic, RegisterMap, Severity, Span, Waiver
 from regscribe.pipeline import Compiled, compile_map
 from regscribe.source import display_name
-
-UNREADABLE = 2
 
 VERDICTS = [verdict.word for verdict in Verdict if verdict]
 
@@ -77,24 +77,24 @@ def _compared(files: Sequence[Path], earlier: Earlier) -> Comparison:
 
 
 def _compiled(files: Sequence[Path]) -> list[Compiled]:
-    return [compile_map(path) for path in files]
+    return [compiled(path) for path in files]
 
 
-def _maps(compiled: Sequence[Compiled]) -> list[RegisterMap]:
+def _maps(made: Sequence[Compiled]) -> list[RegisterMap]:
     """The maps; where one has errors, all errors are told and the command ends with code 2."""
-    errors = [each for one in compiled for each in one.diagnostics if each.severity is Severity.ERROR]
+    errors = [each for one in made for each in one.diagnostics if each.severity is Severity.ERROR]
     if errors:
         show(findings(errors), stream=sys.stderr)
-        files = ", ".join(dict.fromkeys(display_name(one.path) for one in compiled if one.map is None))
+        files = ", ".join(dict.fromkeys(display_name(one.path) for one in made if one.map is None))
         warn(f"nothing was compared: {files} cannot be compiled\n")
-        raise click.exceptions.Exit(UNREADABLE)
-    return [one.map for one in compiled if one.map is not None]
+        raise click.exceptions.Exit(USAGE)
+    return [one.map for one in made if one.map is not None]
 
 
-def _named(compiled: Compiled, earlier: Earlier) -> Compiled:
+def _named(made: Compiled, earlier: Earlier) -> Compiled:
     """A compiled map of the earlier version whose diagnostics have the names of files that people know."""
-    found = tuple(replace(each, span=_span(each.span, earlier), related=()) for each in compiled.diagnostics)
-    return replace(compiled, path=Path(earlier.name(str(compiled.path))), diagnostics=found)
+    found = tuple(replace(each, span=_span(each.span, earlier), related=()) for each in made.diagnostics)
+    return replace(made, path=Path(earlier.name(str(made.path))), diagnostics=found)
 
 
 def _renamed(change: Change, earlier: Earlier) -> Change:

@@ -1,12 +1,16 @@
 """`regscribe check`: report what is wrong in maps."""
 
+from pathlib import Path
+
 import click
 
+from regscribe.cli.shared.compiled_maps import compiled
 from regscribe.cli.shared.diagnostic_text import count, findings, tally
 from regscribe.cli.shared.map_arguments import find_maps
-from regscribe.cli.shared.output import show, tell
+from regscribe.cli.shared.output import show, tell, tell_done
 from regscribe.cli.shared.report_formats import as_github, as_json, as_sarif
-from regscribe.pipeline import compile_map, has_errors
+from regscribe.cli.shared.standard_input import STDIN
+from regscribe.pipeline import has_errors
 
 
 @click.command(
@@ -15,14 +19,23 @@ from regscribe.pipeline import compile_map, has_errors
 )
 @click.argument("paths", nargs=-1, metavar="[PATH]...")
 @click.option("--format", "form", type=click.Choice(["text", "json", "github", "sarif"]), default="text")
+@click.option(
+    "--stdin-filename",
+    "stdin_name",
+    type=click.Path(path_type=Path),
+    default=Path(STDIN),
+    metavar="FILE",
+    help="The file that standard input (`-`) counts as: what it builds on is looked for from there.",
+)
 @click.option("--strict", is_flag=True, help="Let warnings count as findings, too.")
-def command(*, paths: tuple[str, ...], form: str, strict: bool) -> int:
+def command(*, paths: tuple[str, ...], form: str, stdin_name: Path, strict: bool) -> int:
     """Report what is wrong in maps.
 
-    PATH is a map file, a folder that is searched for *.yaml, or the id of a map (fdc/series-100). Without PATH: maps/.
+    PATH is a map file, a folder that is searched for *.yaml, the id of a map (fdc/series-100), or - for standard input.
+    Without PATH: maps/.
     """
     maps = find_maps(paths, libraries=True)
-    repeated = [diagnostic for path in maps for diagnostic in compile_map(path).diagnostics]
+    repeated = [diagnostic for path in maps for diagnostic in compiled(path, name=stdin_name).diagnostics]
     first = {(one.rule, one.span, one.message): one for one in reversed(repeated)}  # each map repeats its library's
     found = list(first.values())[::-1]
     match form:
@@ -35,6 +48,6 @@ def command(*, paths: tuple[str, ...], form: str, strict: bool) -> int:
 
             tell(as_sarif(found, {rule.id: rule for rule in catalogue.all_rules()}))
         case _:
-            checked = f"{count(len(maps), 'map')} checked: {tally(found)}\n"
-            show([*findings(found), (checked, "")])
+            show(findings(found))
+            tell_done(f"{count(len(maps), 'map')} checked: {tally(found)}\n")
     return int(has_errors(found) or (strict and bool(found)))

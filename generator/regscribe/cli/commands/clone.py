@@ -6,9 +6,10 @@ import click
 
 from regscribe.cli.shared import settings_common
 from regscribe.cli.shared.completion_values import complete_target
-from regscribe.cli.shared.live_report import REFUSED, UNKNOWN_STATE, Failure, refused_if, reported
+from regscribe.cli.shared.exit_codes import REFUSED, UNKNOWN_STATE
+from regscribe.cli.shared.live_report import Failure, refused_if, reported
 from regscribe.cli.shared.long_work import Shield, shielded
-from regscribe.cli.shared.output import print_json, remark
+from regscribe.cli.shared.output import alert, print_json
 from regscribe.cli.shared.settings_common import RestoreOptions, include_option
 from regscribe.cli.shared.target_options import confirm_option, driver_options, opened
 from regscribe.tools.live.target import Target, named
@@ -77,7 +78,7 @@ def _results(
 def _error(target: Target, message: str, kind: str, code: int, *, quiet: bool) -> dict[str, Any]:
     if not quiet:
         for line in message.splitlines():
-            remark(f"{target}: {line}")
+            alert(f"{target}: {line}")
     return {"target": str(target), "error": {"kind": kind, "message": message, "exit_code": code}}
 
 
@@ -93,6 +94,6 @@ def _write(target: Target, backup: Backup, options: RestoreOptions, shield: Shie
     with opened(target, identity=True) as device:
         done = settings_common.restored(f"cloning to {target}", device, backup, options, shield)
         if not quiet:
-            remark(f"{target}:")
+            alert(f"{target}:")
             settings_common.show_restored(device, done, dry_run=options.dry_run)
         return {"target": str(target), **settings_common.plain_restored(device, done)}

@@ -6,13 +6,14 @@ from pathlib import Path
 import click
 
 from regscribe.cli.shared.comparison_text import as_csv, as_json, as_text
+from regscribe.cli.shared.compiled_maps import compiled
 from regscribe.cli.shared.diagnostic_text import findings, tally
 from regscribe.cli.shared.map_arguments import find_map
 from regscribe.cli.shared.output import raised_as, refuse, show, tell, warn
+from regscribe.cli.shared.standard_input import input_bytes, is_stdin
 from regscribe.evidence.compare import compare_maps, compare_table
-from regscribe.evidence.table import Table, TableError, read
+from regscribe.evidence.table import MOST_BYTES, Table, TableError, read
 from regscribe.model import RegisterMap
-from regscribe.pipeline import compile_map
 
 MAPS = {".yaml", ".yml"}
 TABLES = {".csv", ".tsv", ".txt"}
@@ -44,14 +45,16 @@ def command(
     """Hold a map against a second transcription in CSV, or against another map, and list what differs.
 
     MAP is a map file or the id of a map (fdc/series-100). The table has columns of `regscribe export`, any number of
-    them; docs/evidence.md tells more.
+    them; docs/evidence.md tells more. One of the two may be - for standard input.
     """
     wanted = _columns(columns)
+    if is_stdin(map_name) and is_stdin(other):
+        refuse("standard input can be the map or the table, not both")
     with raised_as(click.UsageError, TableError):
         table = None if _is_map(other) else _table(other)
         _refuse_foreign(table, model=model, pairs=pairs, partial=partial)
         names = [map_name] if table else [map_name, other]
-        maps = [compiled for name in names if (compiled := _compiled(name))]
+        maps = [one for name in names if (one := _compiled(name))]
         if len(maps) < len(names):
             return 1
         if table:
@@ -74,6 +77,8 @@ def _columns(text: str | None) -> list[str]:
 def _is_map(other: str) -> bool:
     """Whether the second argument names a map: a YAML file, or neither a file nor a name with the ending of a table."""
     path = Path(other)
+    if is_stdin(other):
+        return False
     try:
         return path.suffix in MAPS or (path.suffix.lower() not in TABLES and not path.exists())
     except OSError:  # a name that is too long
@@ -81,6 +86,8 @@ def _is_map(other: str) -> bool:
 
 
 def _table(other: str) -> Table:
+    if is_stdin(other):
+        return read(input_bytes(MOST_BYTES), "standard input")
     path = Path(other)
     if path.is_dir():
         refuse(f"{other} is a folder: name one table (CSV) or one map")
@@ -99,11 +106,11 @@ def _refuse_foreign(table: Table | None, *, model: str, pairs: tuple[str, ...], 
 
 
 def _compiled(name: str) -> RegisterMap | None:
-    compiled = compile_map(find_map(name))
-    show(findings(compiled.diagnostics), stream=sys.stderr)
-    if compiled.map is None:
-        warn(f"nothing was compared: {tally(compiled.diagnostics)} in {compiled.path}\n")
-    return compiled.map
+    made = compiled(find_map(name))
+    show(findings(made.diagnostics), stream=sys.stderr)
+    if made.map is None:
+        warn(f"nothing was compared: {tally(made.diagnostics)} in {made.path}\n")
+    return made.map
 
 
 def _pairs(pairs: tuple[str, ...], maps: list[RegisterMap]) -> dict[str, str]:

@@ -10,6 +10,7 @@ from regscribe.cli.shared.completion_values import complete_model
 from regscribe.cli.shared.diagnostic_text import count
 from regscribe.cli.shared.live_report import refused_if, reported
 from regscribe.cli.shared.output import print_json, raised_as, remark, tell
+from regscribe.cli.shared.standard_input import STDIN
 from regscribe.cli.shared.target_options import base_option, driver_options
 from regscribe.tools.live import capture, catalogue, givens, names, target, value_text
 from regscribe.tools.live import config as configuration
@@ -55,13 +56,13 @@ def command(  # noqa: PLR0913 - the options of the command
     """Say in names what frames mean: RTU, TCP or ASCII, as hexadecimal digits, or in a log of any program.
 
     MODEL is one that `regscribe devices` lists. Digits: one frame in pairs, or a frame in each argument. In a log, each
-    line is searched for a frame; answers are held against the requests before them. Without HEX and --log, standard
-    input is read.
+    line is searched for a frame; answers are held against the requests before them. Without HEX and --log, or with -
+    in their place, standard input is read.
     """
     with reported():
         driver = catalogue.find(model, (*packages, *configuration.load(config).packages)).driver
         decoder = _decoder(driver, state, given, bases, first=int(addressing == "jbus"))
-    lines = _lines(digits) if digits else log or sys.stdin
+    lines = _lines(digits) if digits and digits != (STDIN,) else log or sys.stdin
     decoded = [
         (part.line, decoder.feed(frame, part.direction))
         for part in capture.captured(lines, framing)

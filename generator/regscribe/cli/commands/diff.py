@@ -3,8 +3,9 @@
 import click
 
 from regscribe.cli.shared.completion_values import complete_target
-from regscribe.cli.shared.live_report import USAGE, Failure, refused_if, reported
-from regscribe.cli.shared.output import print_json, remark, show_table
+from regscribe.cli.shared.exit_codes import USAGE
+from regscribe.cli.shared.live_report import Failure, refused_if, reported
+from regscribe.cli.shared.output import alert, print_json, remark, show_table
 from regscribe.cli.shared.settings_common import backup_of
 from regscribe.cli.shared.target_options import driver_options
 from regscribe.tools import settings
@@ -67,7 +68,7 @@ def _show(one: Side, other: Side, found: tuple[SettingDifference, ...], blind: l
     else:
         remark("nothing differs")
     if blind:
-        remark(f"not compared, for the manual gives no default: {', '.join(blind)}")
+        alert(f"not compared, for the manual gives no default: {', '.join(blind)}")
 
 
 def _text(saved: Saved | None) -> str:

@@ -11,9 +11,10 @@ from regscribe.cli.shared.compiled_maps import compiled_maps
 from regscribe.cli.shared.loss_report import FORMS, report_of
 from regscribe.cli.shared.map_arguments import find_maps
 from regscribe.cli.shared.output import raised_as, tell, tell_bytes, warn
+from regscribe.cli.shared.output_file import none_for_stdout, save
 from regscribe.cli.shared.plugin_options import PluginCommand, own_options
 from regscribe.emit.write import WriteError, write
-from regscribe.files import FileError, save
+from regscribe.files import FileError
 from regscribe.losses import Exported
 from regscribe.plugins import OptionError, PluginError
 
@@ -30,6 +31,7 @@ from regscribe.plugins import OptionError, PluginError
     "-o",
     "--out",
     type=click.Path(path_type=Path),
+    callback=none_for_stdout,
     metavar="FILE|DIR",
     help="Where it goes: a file, or the folder for formats that make several; else standard output.",
 )

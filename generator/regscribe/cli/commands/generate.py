@@ -11,15 +11,14 @@ import click
 from regscribe.cli.shared.diagnostic_text import count, report
 from regscribe.cli.shared.map_arguments import find_maps
 from regscribe.cli.shared.map_builds import Made, make_all
-from regscribe.cli.shared.output import raised_as, refuse, tell
-from regscribe.cli.shared.project_file import check_name, start_project
+from regscribe.cli.shared.output import detail, raised_as, refuse, tell, tell_done
+from regscribe.cli.shared.standard_input import is_stdin
 from regscribe.emit import build_cache
 from regscribe.emit.build_cache import BuildRecord
 from regscribe.emit.docs_index import render_index
 from regscribe.emit.header import origin_of
 from regscribe.emit.templates import Templates
 from regscribe.emit.write import Report, WriteError, write
-from regscribe.files import FileError
 from regscribe.model import Diagnostic
 from regscribe.visible import safe_lines
 
@@ -90,7 +89,7 @@ def command(*, maps: tuple[str, ...], check: bool, out: Path, folder: Path | Non
     if not check:
         _remember(build, known, whole=not maps)
     tell(safe_lines(written.diff))
-    tell(safe_lines(_summary(build, written, out, seconds=perf_counter() - started, check=check)))
+    tell_done(safe_lines(_summary(build, written, out, seconds=perf_counter() - started, check=check)))
     if project is not None:
         _start_project(project, out)
     return int(check and bool(written.written or written.removed))
@@ -99,23 +98,31 @@ def command(*, maps: tuple[str, ...], check: bool, out: Path, folder: Path | Non
 def _check_project(name: str, *, check: bool) -> None:
     if check:
         refuse("--project writes a file, and with --check nothing is written: leave one of them out")
+    from regscribe.cli.shared.project_file import check_name  # noqa: PLC0415 - yaml, which a build without change spares
+
     check_name(name)
 
 
 def _start_project(name: str, out: Path) -> None:
+    from regscribe.cli.shared.project_file import start_project  # noqa: PLC0415 - as above
+    from regscribe.files import FileError  # noqa: PLC0415 - as above
+
     with raised_as(click.ClickException, FileError):
         new = start_project(name, out)
     if new:
-        tell(safe_lines(f"{out / 'pyproject.toml'} is new: pip install -e {shlex.quote(str(out))}\n"))
+        tell_done(safe_lines(f"{out / 'pyproject.toml'} is new: pip install -e {shlex.quote(str(out))}\n"))
 
 
 def _build(paths: Sequence[Path], known: build_cache.Cache, templates: Templates | None) -> Build:
-    """Compile and render every map that `known` does not show to be unchanged."""
+    """Compile and render every map that `known` does not show to be unchanged. Raises click.UsageError for `-`."""
+    if any(map(is_stdin, paths)):
+        refuse("a map from standard input has no name that `generate` could put into the files: name its file")
     entries = {path: known.unchanged(path) for path in paths}
     changed = [path for path, entry in entries.items() if entry is None]
     made = dict(zip(changed, make_all(changed, templates), strict=True))
     build = Build(templates)
     for path, entry in entries.items():
+        detail(f"{'compiled' if entry is None else 'unchanged'}: {path}")
         if entry is None:
             build.take(made[path])
         else:

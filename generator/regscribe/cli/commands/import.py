@@ -11,9 +11,10 @@ from regscribe.cli.shared.draft_report import FORMS, report_of
 from regscribe.cli.shared.import_run import Run, code_of
 from regscribe.cli.shared.import_source import check_free, data_of, mapping_of, recognised
 from regscribe.cli.shared.long_work import progress
-from regscribe.cli.shared.output import raised_as, refuse, tell, warn
+from regscribe.cli.shared.output import raised_as, refuse, remark, tell, warn
+from regscribe.cli.shared.output_file import none_for_stdout, save
 from regscribe.cli.shared.plugin_options import PluginCommand, own_options
-from regscribe.files import FileError, save
+from regscribe.files import FileError
 from regscribe.plugins import IMPORTERS, OptionError, PluginError
 from regscribe.visible import safe
 
@@ -36,7 +37,9 @@ PATH = click.Path(path_type=Path)
 )
 @click.argument("source", metavar="SOURCE")
 @click.option("--as", "map_id", metavar="MAKER/FAMILY", help="Id of the map; else by -o, the source, or its name.")
-@click.option("-o", "--out", type=PATH, metavar="MAP", help="The map; else standard output.")
+@click.option(
+    "-o", "--out", type=PATH, callback=none_for_stdout, metavar="MAP", help="The map; else (or -) standard output."
+)
 @click.option("--mapping", type=PATH, metavar="FILE", help="Options, rows to skip and corrections from this file.")
 @click.option("--save-mapping", type=PATH, metavar="FILE", help="Write them, for the next list, to this new file.")
 @click.option("--merge", is_flag=True, help="Bring what the list changed since the last import into the map -o.")
@@ -91,7 +94,7 @@ def _put(run: Run, out: Path | None, save_mapping: Path | None, *, merging: bool
         tell(run.text or "")
         return
     run.save_map(out, merging=merging)
-    warn(f"{safe(str(out))} is ready; then: regscribe check {safe(str(out))}\n")
+    remark(f"{out} is ready; then: regscribe check {out}")
     if save_mapping is not None:
         run.save_mapping(save_mapping, imported=True)
     elif run.mapping_path is not None:

@@ -5,7 +5,7 @@ from pathlib import Path
 import click
 
 from regscribe.cli.shared.map_heads import parts_of, schema_for, skeleton
-from regscribe.cli.shared.output import refuse, tell
+from regscribe.cli.shared.output import refuse, tell_done
 from regscribe.visible import safe
 
 
@@ -31,4 +31,4 @@ def command(*, map_id: str, folder: Path) -> None:
     except OSError as error:
         message = f"cannot write {path}: {error.strerror}; choose another folder with --dir"
         raise click.ClickException(message) from None
-    tell(safe(f"{path} is ready to be filled in; then: regscribe check {path}") + "\n")
+    tell_done(safe(f"{path} is ready to be filled in; then: regscribe check {path}") + "\n")

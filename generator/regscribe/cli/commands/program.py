@@ -7,8 +7,10 @@ from pathlib import Path
 import click
 
 from regscribe import files
-from regscribe.cli.shared.live_report import REFUSED, UNKNOWN_STATE, Failure, code_of, heading, kind_of, reported
+from regscribe.cli.shared.exit_codes import REFUSED, UNKNOWN_STATE
+from regscribe.cli.shared.live_report import Failure, code_of, heading, kind_of, reported
 from regscribe.cli.shared.output import print_json, remark, show_table, tell
+from regscribe.cli.shared.output_file import none_for_stdout, save
 from regscribe.cli.shared.program_text import show_program
 from regscribe.cli.shared.target_options import confirm_option, identity_option, json_option, opened, target_options
 from regscribe.tools import programs
@@ -71,7 +73,13 @@ def show(*, target: Target, as_json: bool, name: str, svg: Path | None) -> int:
 
 
 @live("read", "Example: regscribe program read oven --out anneal.yaml")
-@click.option("--out", type=click.Path(path_type=Path), metavar="FILE", help="The file; without it standard output.")
+@click.option(
+    "--out",
+    type=click.Path(path_type=Path),
+    callback=none_for_stdout,
+    metavar="FILE",
+    help="The file; without it, or for -, standard output.",
+)
 def read_command(*, target: Target, as_json: bool, name: str, out: Path | None) -> int:
     """Read a program as a YAML file that `write` takes."""
     with opened(target) as device:
@@ -215,7 +223,7 @@ def _first(given: programs.Program) -> int:
 def _save(path: Path, text: str) -> None:
     """Write a file whole or not at all."""
     try:
-        files.save(path, text)
+        save(path, text)
     except files.FileError as error:
         raise Failure(str(error), kind="file", code=REFUSED) from None
 

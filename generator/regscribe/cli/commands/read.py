@@ -6,7 +6,7 @@ import click
 
 from regscribe.cli.shared.completion_values import complete_register
 from regscribe.cli.shared.live_report import heading, plain, refused_if
-from regscribe.cli.shared.output import hexadecimal, print_json, remark, show_table, tell
+from regscribe.cli.shared.output import alert, hexadecimal, print_json, remark, show_table, tell
 from regscribe.cli.shared.target_options import opened, target_options
 from regscribe.tools.live import names
 from regscribe.tools.live.addresses import NoRegisterError, raw_place, spelled
@@ -52,7 +52,7 @@ def command(*, target: Target, as_json: bool, wanted: tuple[str, ...], bare: boo
         tell("".join(f"{safe(one.text)}\n" for one in found))
         for one in found:
             if one.error is not None:
-                remark(str(one.error))
+                alert(str(one.error))
     else:
         show_table(("REGISTER", "VALUE"), [(one.name, one.spelled) for one in found])
     return refused_if(any(one.error for one in found))

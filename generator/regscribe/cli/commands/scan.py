@@ -6,9 +6,10 @@ from collections.abc import Iterator, Mapping, Sequence
 import click
 
 from regscribe.cli.shared.diagnostic_text import count
+from regscribe.cli.shared.exit_codes import INTERRUPTED
 from regscribe.cli.shared.live_report import failure, refused_if, reported
-from regscribe.cli.shared.long_work import INTERRUPTED, progress
-from regscribe.cli.shared.output import print_json, refuse, remark, show_table
+from regscribe.cli.shared.long_work import progress
+from regscribe.cli.shared.output import alert, print_json, refuse, remark, show_table
 from regscribe.cli.shared.target_options import driver_options, silence_loggers
 from regscribe.tools.live import catalogue, scan
 from regscribe.tools.live.link_names import LinkName
@@ -94,9 +95,9 @@ def _show(found: Sequence[scan.Probe], noise: Mapping[str, str], ended: str, *, 
         rows = [(str(one.unit), str(one.link), one.answer, " or ".join(one.models) or "?") for one in found]
         show_table(("UNIT", "LINK", "ANSWER", "MODEL"), rows)
     for link, said in noise.items():
-        remark(f"what comes on {link} is no Modbus (another speed, format or framing?): {said}")
+        alert(f"what comes on {link} is no Modbus (another speed, format or framing?): {said}")
     if ended:
-        remark(ended)
+        alert(ended)
     elif not found:
         remark("nobody answers")
 

@@ -12,6 +12,8 @@ import click
 
 from regscribe import simulate as simulator
 from regscribe.cli.shared import simulated_devices
+from regscribe.cli.shared.exit_codes import STOPPED
+from regscribe.cli.shared.global_options import is_quiet
 from regscribe.cli.shared.output import raised_as, refuse, tell
 from regscribe.cli.shared.request_log import RequestLog, table
 from regscribe.cli.shared.simulated_devices import WantedDevice
@@ -24,9 +26,6 @@ from regscribe_runtime.values.serial_line import ADDRESSINGS, SerialLine
 
 PTY = "pty"
 """In place of a serial device: make a pseudo terminal and print its path."""
-
-STOPPED = 143
-"""Exit code of a program that a signal TERM stopped."""
 
 FRAMINGS = {"tcp": Transport.TCP, "rtu": Transport.RTU_OVER_TCP, "ascii": Transport.ASCII_OVER_TCP}
 
@@ -46,7 +45,6 @@ class Options(TypedDict):
     connections: int
     idle: float | None
     save: str | None
-    quiet: bool
 
 
 @click.command(
@@ -85,7 +83,6 @@ class Options(TypedDict):
 @click.option("--foreign", type=click.Choice(list(Foreign)), help="What a unit that is not here gets.")
 @click.option("--connections", type=click.IntRange(1, 10_000), default=64, help="Clients at once.", show_default=True)
 @click.option("--idle", type=click.FloatRange(min=0.1), metavar="S", help="Seconds until a silent client is dropped.")
-@click.option("--quiet", is_flag=True, help="Do not show requests.")
 def command(  # noqa: PLR0913 - one for each option that makes devices
     *,
     map_name: str | None,
@@ -105,7 +102,7 @@ def command(  # noqa: PLR0913 - one for each option that makes devices
     """Serve models of maps as Modbus devices, with their limits, refusals and silences, until Ctrl-C.
 
     MAP is a map file or the id of a map (fdc/series-100). Requests are shown by the names of the map: in a table on a
-    terminal, else one a line.
+    terminal, else one a line; with --quiet not at all.
     """
     if (options["tcp"] is None) == (options["rtu"] is None):
         refuse("choose one of --tcp HOST:PORT and --rtu DEVICE")
@@ -129,7 +126,7 @@ def command(  # noqa: PLR0913 - one for each option that makes devices
 def _run(devices: list[SimulatedDevice], service: Service, options: Options) -> int:
     usual = line_of(devices)
     line = SerialLine.of("", options["baud"] or usual.baud, options["character"] or usual.format)
-    shown, terminal = not options["quiet"], sys.stdout.isatty()
+    shown, terminal = not is_quiet(), sys.stdout.isatty()
     requests = RequestLog(devices, printed=not terminal)
     service = replace(service, line=line, watcher=requests.note if shown else None)
     try:

@@ -8,7 +8,8 @@ from pathlib import Path
 import click
 
 from regscribe.cli.shared.completion_values import complete_register
-from regscribe.cli.shared.live_report import REFUSED, Failure, failure
+from regscribe.cli.shared.exit_codes import REFUSED
+from regscribe.cli.shared.live_report import Failure, failure
 from regscribe.cli.shared.live_view import Screen, lines
 from regscribe.cli.shared.output import print_json_line, tell
 from regscribe.cli.shared.target_options import opened, target_options

@@ -10,6 +10,7 @@ from pathlib import Path
 import click
 
 from regscribe.cli.shared.output import Piece, show, warn
+from regscribe.cli.shared.standard_input import kept_text
 from regscribe.model import Diagnostic, Severity, Span
 from regscribe.visible import safe
 
@@ -79,7 +80,10 @@ def placed(span: Span, lines_of: Callable[[str], Sequence[str]], style: str) -> 
 
 
 def read_lines(file: str) -> list[str]:
-    """The lines of a source file; none if it is gone, unreadable or too large by now."""
+    """The lines of a source file, or of standard input; none if it is gone, unreadable or too large by now."""
+    text = kept_text(file)
+    if text is not None:
+        return LINE_BREAK.split(text.removeprefix("\ufeff"))
     path = Path(file)
     try:
         if not path.is_file() or path.stat().st_size > MOST_BYTES:

@@ -4,9 +4,10 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from pathlib import Path
 
-from regscribe import plugins, source
+from regscribe import files, plugins, source
 from regscribe.cli.shared.import_source import check, check_at, id_for
 from regscribe.cli.shared.map_heads import head_of
+from regscribe.cli.shared.output import detail
 from regscribe.draft import Draft, Outcome
 from regscribe.draft.differences import Change, Note
 from regscribe.draft.fixes import fixed
@@ -15,7 +16,7 @@ from regscribe.draft.mapping import stored as store_mapping
 from regscribe.draft.merge import merge, stored
 from regscribe.draft.settle import settle
 from regscribe.draft.text import Written
-from regscribe.files import FileError, save
+from regscribe.files import FileError
 from regscribe.model import Diagnostic, Severity, Span
 from regscribe.plugins import OptionError
 from regscribe.source import Document
@@ -102,7 +103,8 @@ class Run:
         except OSError as error:
             message = f"cannot write {out}: {error.strerror or error}"
             raise FileError(message) from None
-        save(out, self.text or "", new=not merging)
+        files.save(out, self.text or "", new=not merging)
+        detail(f"wrote {out}")
 
     def save_mapping(self, path: Path, *, imported: bool) -> None:
         """Write the mapping, with what was imported if the map was written. Raises FileError."""
@@ -110,7 +112,7 @@ class Run:
         if imported:
             store_mapping(path, own, stored(_document(self.written.text)))
         else:
-            save(path, own)
+            files.save(path, own)
 
 
 def code_of(run: Run) -> int:

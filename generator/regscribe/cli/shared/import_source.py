@@ -1,7 +1,6 @@
 """What an import reads: the bytes of the source, a mapping, the form of the source, and the id of a map of it."""
 
 import re
-import sys
 import tempfile
 from collections.abc import Sequence
 from pathlib import Path
@@ -9,6 +8,7 @@ from pathlib import Path
 from regscribe import plugins
 from regscribe.cli.shared.map_heads import is_part, parts_of
 from regscribe.cli.shared.output import refuse
+from regscribe.cli.shared.standard_input import input_bytes, is_stdin
 from regscribe.draft import Draft
 from regscribe.draft.mapping import ImportMapping, load
 from regscribe.model import Diagnostic
@@ -16,7 +16,6 @@ from regscribe.model.identifiers import snake
 from regscribe.pipeline import compile_map
 from regscribe.plugins import IMPORTERS, OptionError
 
-STDIN = "-"
 MOST_BYTES = 64 * 1024 * 1024
 """Far beyond any list of registers."""
 
@@ -24,8 +23,8 @@ MOST_BYTES = 64 * 1024 * 1024
 def data_of(origin: str) -> tuple[bytes, str]:
     """Return the bytes of the source and what messages call it. Raises click.UsageError."""
     try:
-        if origin == STDIN:
-            data, name = sys.stdin.buffer.read(MOST_BYTES + 1), "stdin"
+        if is_stdin(origin):
+            data, name = input_bytes(MOST_BYTES), "stdin"
         else:
             with Path(origin).open("rb") as file:
                 data, name = file.read(MOST_BYTES + 1), origin

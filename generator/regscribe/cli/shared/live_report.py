@@ -1,9 +1,4 @@
-"""What live commands print alike: errors with an exit code for scripts, the heading of JSON, readings, unsent requests.
-
-Exit codes: 0 done, 1 the device refuses or something differs, 2 the command line or a name in it is wrong,
-3 nobody answers (or the link was lost, or the port cannot be opened), 4 a write broke off and what the device holds is
-not known, 130 Ctrl-C.
-"""
+"""What live commands print alike: errors with an exit code, the heading of JSON, readings, unsent requests."""
 
 from collections.abc import Iterator, Sequence
 from contextlib import contextmanager
@@ -13,6 +8,7 @@ from typing import IO, Any
 import click
 
 from regscribe.cli.shared.diagnostic_text import report
+from regscribe.cli.shared.exit_codes import REFUSED, SILENT, UNKNOWN_STATE, USAGE
 from regscribe.cli.shared.output import hexadecimal, print_json_line, remark, show_table, warn
 from regscribe.tools.live import catalogue
 from regscribe.tools.live.capture import RECEIVED, SENT
@@ -33,8 +29,6 @@ from regscribe_runtime.wire.requests import Request
 
 Unsent = Sequence[Request | Sent]
 """Requests that a dry run did not send."""
-
-REFUSED, USAGE, SILENT, UNKNOWN_STATE = 1, 2, 3, 4
 
 ARROWS = {SENT: "->", RECEIVED: "<-"}
 

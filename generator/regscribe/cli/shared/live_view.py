@@ -1,10 +1,12 @@
 """Watched values: on a terminal a table that stays in place, changes marked, curves below; on a pipe lines."""
 
+import sys
 from collections import deque
 from collections.abc import Iterator, Sequence
 from typing import TYPE_CHECKING
 
 from regscribe.cli.shared.chart import chart
+from regscribe.cli.shared.output import console
 from regscribe.tools.live.watch import Round
 from regscribe.visible import safe
 
@@ -51,14 +53,13 @@ class Screen:
 
     def follow(self, rounds: Iterator[Round]) -> None:
         """Show rounds in place on the terminal until they end."""
-        from rich.console import Console  # noqa: PLC0415 - 60 ms that only a terminal needs
-        from rich.live import Live  # noqa: PLC0415 - as above
+        from rich.live import Live  # noqa: PLC0415 - 60 ms that only a terminal needs
 
-        console = Console(highlight=False)
-        with Live(console=console, auto_refresh=False) as live:
+        screen = console(sys.stdout)
+        with Live(console=screen, auto_refresh=False) as live:
             for one in rounds:
                 self.take(one)
-                live.update(self._picture(one, console.width), refresh=True)
+                live.update(self._picture(one, screen.width), refresh=True)
 
     def _picture(self, latest: Round, width: int) -> "RenderableType":
         from rich.console import Group  # noqa: PLC0415 - as above

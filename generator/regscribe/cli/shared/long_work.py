@@ -6,10 +6,10 @@ import threading
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 
-from regscribe.cli.shared.output import remark
+from regscribe.cli.shared.exit_codes import INTERRUPTED
+from regscribe.cli.shared.global_options import is_quiet
+from regscribe.cli.shared.output import alert, console
 from regscribe.visible import tame
-
-INTERRUPTED = 130
 
 Advance = Callable[[str], None]
 """Called after each step with a text that says which."""
@@ -17,14 +17,13 @@ Advance = Callable[[str], None]
 
 @contextmanager
 def progress(total: int, label: str) -> Iterator[Advance]:
-    """A bar of `total` steps on standard error while the block runs; nothing where that is no terminal."""
-    if not sys.stderr.isatty():
+    """A bar of `total` steps on standard error while the block runs; nothing with --quiet or without a terminal."""
+    if is_quiet() or not sys.stderr.isatty():
         yield lambda _: None
         return
-    from rich.console import Console  # noqa: PLC0415 - 60 ms that only a terminal needs
-    from rich.progress import Progress  # noqa: PLC0415 - as above
+    from rich.progress import Progress  # noqa: PLC0415 - 60 ms that only a terminal needs
 
-    with Progress(console=Console(stderr=True), transient=True) as bar:
+    with Progress(console=console(sys.stderr), transient=True) as bar:
         task = bar.add_task(label, total=total)
         yield lambda text: bar.update(task, advance=1, description=tame(text))
 
@@ -53,7 +52,7 @@ def shielded() -> Iterator[Shield]:
         if shield.interrupted:
             raise KeyboardInterrupt
         shield.interrupted = True
-        remark("finishing what is being written; Ctrl-C again breaks it off, and then nobody knows what is done")
+        alert("finishing what is being written; Ctrl-C again breaks it off, and then nobody knows what is done")
 
     before = signal.signal(signal.SIGINT, interrupt)
     try:

@@ -6,14 +6,15 @@ from difflib import get_close_matches
 from pathlib import Path
 
 from regscribe.cli.shared.output import refuse
+from regscribe.cli.shared.standard_input import is_stdin
 from regscribe.map_files import ENDINGS, IMPORT, LIBRARY, LOCAL, MAP, file_of, files_below, ids_in, kind_of, shipped
 
 
 def find_maps(arguments: Sequence[str], *, libraries: bool = False) -> list[Path]:
     """Return the files that the arguments name, each once, in a stable order; without arguments all of maps/.
 
-    Libraries are among them if `libraries` is set. Raises click.UsageError for what is neither a
-    file, a folder with maps, nor the id of a map, and for a library where none is asked for.
+    `-` is standard input, and stays `-`. Libraries are among them if `libraries` is set. Raises click.UsageError for
+    what is neither a file, a folder with maps, nor the id of a map, and for a library where none is asked for.
     """
     if not arguments and not LOCAL.is_dir():
         refuse("there is no folder maps/ here: name a map file, a folder or a map id")
@@ -36,6 +37,8 @@ def _is_folder(argument: str) -> bool:
 
 
 def _file_of(argument: str, kinds: Sequence[str]) -> Path:
+    if is_stdin(argument):
+        return Path(argument)
     if kind_of(argument) == IMPORT:
         refuse(f"{argument} is the mapping of an import and no map: name the map")
     if kind_of(argument) not in kinds:

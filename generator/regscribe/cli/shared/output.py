@@ -4,11 +4,15 @@ import os
 import sys
 from collections.abc import Iterable, Iterator, Sequence
 from contextlib import contextmanager
-from typing import Any, NoReturn, TextIO
+from typing import TYPE_CHECKING, Any, NoReturn, TextIO
 
 import click
 
+from regscribe.cli.shared.global_options import color, is_quiet, is_verbose
 from regscribe.visible import json_text, safe, tame
+
+if TYPE_CHECKING:
+    from rich.console import Console
 
 Piece = tuple[str, str]
 """A text and its style in the words of rich (`bold red`); an empty style is plain."""
@@ -52,16 +56,37 @@ def show(pieces: Iterable[Piece], *, stream: TextIO | None = None) -> None:
     if not in_colour(out):
         out.write("".join(text for text, _ in tamed))
         return
-    from rich.console import Console  # noqa: PLC0415 - 60 ms that only a terminal needs
-    from rich.text import Text  # noqa: PLC0415 - as above
+    from rich.text import Text  # noqa: PLC0415 - 60 ms that only a terminal needs
 
-    console = Console(file=out, highlight=False, soft_wrap=True)
-    console.print(Text.assemble(*tamed), end="")
+    console(out).print(Text.assemble(*tamed), end="", soft_wrap=True)
 
 
 def in_colour(stream: TextIO) -> bool:
-    """Whether `stream` is a terminal whose user wants colour (see no-color.org)."""
-    return stream.isatty() and not os.environ.get("NO_COLOR") and os.environ.get("TERM") != "dumb"
+    """Whether `stream` gets colours: by --color, else NO_COLOR, FORCE_COLOR or CLICOLOR_FORCE, TERM, the terminal.
+
+    See https://no-color.org, https://force-color.org and https://bixense.com/clicolors.
+    """
+    if color() != "auto":
+        return color() == "always"
+    if os.environ.get("NO_COLOR"):
+        return False
+    if os.environ.get("FORCE_COLOR") or os.environ.get("CLICOLOR_FORCE", "0") not in {"", "0"}:
+        return True
+    return stream.isatty() and os.environ.get("TERM") != "dumb"
+
+
+def console(stream: TextIO) -> "Console":
+    """What draws on `stream`, in colours as far as it gets any, whatever rich itself makes of the environment."""
+    from rich.console import Console  # noqa: PLC0415 - 60 ms that only a terminal needs
+
+    coloured = in_colour(stream)
+    return Console(
+        file=stream,
+        highlight=False,
+        no_color=not coloured,
+        color_system="standard" if coloured else None,
+        force_terminal=stream.isatty(),
+    )
 
 
 def show_table(columns: Sequence[str], rows: Iterable[Sequence[str]], *, title: str = "") -> None:
@@ -71,16 +96,20 @@ def show_table(columns: Sequence[str], rows: Iterable[Sequence[str]], *, title: 
         _rich_table(columns, cells, title)
         return
     if title:
-        tell(f"# {safe(title)}\n")
+        show([(f"# {safe(title)}\n", "bold")])
     widths = [max(map(len, column)) for column in zip(*cells, strict=True)]
     for row in cells:
-        line = "  ".join(cell.ljust(width) for cell, width in zip(row, widths, strict=True))
-        tell(f"{line.rstrip()}\n")
+        first, *others = (cell.ljust(width) for cell, width in zip(row, widths, strict=True))
+        show([(first if any(map(str.strip, others)) else first.rstrip(), "cyan"), (_joined(others), ""), ("\n", "")])
+
+
+def _joined(cells: Iterable[str]) -> str:
+    """Cells behind the first of their row, without blanks at the end."""
+    return "".join(f"  {cell}" for cell in cells).rstrip()
 
 
 def _rich_table(columns: Sequence[str], rows: Sequence[Sequence[str]], title: str) -> None:
-    from rich.console import Console  # noqa: PLC0415 - 60 ms that only a terminal needs
-    from rich.table import Table  # noqa: PLC0415 - as above
+    from rich.table import Table  # noqa: PLC0415 - 60 ms that only a terminal needs
     from rich.text import Text  # noqa: PLC0415 - as above
 
     heading = Text(safe(title), style="bold") if title else None
@@ -89,7 +118,7 @@ def _rich_table(columns: Sequence[str], rows: Sequence[Sequence[str]], title: st
         table.add_column(Text(name), style="" if number else "cyan", header_style="bold")
     for row in rows:
         table.add_row(*map(Text, row))
-    Console(highlight=False).print(table)
+    console(sys.stdout).print(table)
 
 
 def print_json(**members: Any) -> None:  # noqa: ANN401 - anything that JSON can hold
@@ -103,9 +132,27 @@ def print_json_line(**members: Any) -> None:  # noqa: ANN401 - as above
     sys.stdout.flush()
 
 
-def remark(text: str) -> None:
-    """Write a line for people, beside the result, to standard error."""
+def alert(text: str) -> None:
+    """Write a line that says what is wrong to standard error."""
     warn(f"{safe(text)}\n")
+
+
+def remark(text: str) -> None:
+    """Write a line for people, beside the result, to standard error; nothing with --quiet."""
+    if not is_quiet():
+        alert(text)
+
+
+def detail(text: str) -> None:
+    """Write which file, which configuration or how long to standard error; with --verbose only."""
+    if is_verbose():
+        alert(text)
+
+
+def tell_done(text: str) -> None:
+    """Write to standard output what was done, where that is not what was asked for; nothing with --quiet."""
+    if not is_quiet():
+        tell(text)
 
 
 def hexadecimal(words: Iterable[int]) -> str:

@@ -7,9 +7,11 @@ from typing import Any, NamedTuple
 
 import click
 
-from regscribe.cli.shared.live_report import REFUSED, UNKNOWN_STATE, USAGE, Failure, reported
+from regscribe.cli.shared.exit_codes import REFUSED, UNKNOWN_STATE, USAGE
+from regscribe.cli.shared.live_report import Failure, reported
 from regscribe.cli.shared.long_work import Shield, progress
-from regscribe.cli.shared.output import remark, show_table
+from regscribe.cli.shared.output import alert, detail, remark, show_table
+from regscribe.cli.shared.standard_input import is_stdin
 from regscribe.cli.shared.target_options import opened
 from regscribe.tools import settings
 from regscribe.tools.live.target import named
@@ -66,7 +68,9 @@ def restored(
 def loaded(path: Path) -> settings.Backup:
     """The backup in a file. Raises Failure."""
     with settings_reported():
-        return settings.load(path)
+        found = settings.load(path)
+        detail(f"read {path}")
+        return found
 
 
 def taken(device: BareDevice, link: str) -> settings.Backup:
@@ -77,7 +81,7 @@ def taken(device: BareDevice, link: str) -> settings.Backup:
 
 def backup_of(text: str, packages: tuple[str, ...], config: str | None) -> tuple[settings.Backup, str]:
     """The settings of the backup file or of the device that `text` names, and the name of the file or device."""
-    if text.endswith((".yaml", ".yml")) or Path(text).is_file():
+    if is_stdin(text) or text.endswith((".yaml", ".yml")) or Path(text).is_file():
         return loaded(Path(text)), text
     with reported():
         target = named(text, config, packages)
@@ -91,9 +95,9 @@ def show_restored(device: BareDevice, done: settings.Restored, *, dry_run: bool)
     rows = [["?" if text is None else text for text in one.values()] for one in changes]
     show_table(("REGISTER", "BEFORE", "AFTER", ""), rows)
     for line in done.fit.strange:
-        remark(line)
+        alert(line)
     for misfit in done.fit.misfits:
-        remark(f"left out: {misfit.path}: {misfit.reason}")
+        alert(f"left out: {misfit.path}: {misfit.reason}")
     written = len(done.report.changes) - len(done.report.equal)
     verb = "would be written" if dry_run else "written"
     stays = f", {len(done.fit.stays)} stay with their device" if done.fit.stays else ""

@@ -11,9 +11,12 @@ from typing import Any, TypeVar
 import click
 
 from regscribe.cli.shared.completion_values import complete_model, complete_target
-from regscribe.cli.shared.live_report import REFUSED, Failure, FrameTracer, reported
-from regscribe.cli.shared.output import remark
+from regscribe.cli.shared.exit_codes import REFUSED
+from regscribe.cli.shared.global_options import is_verbose
+from regscribe.cli.shared.live_report import Failure, FrameTracer, reported
+from regscribe.cli.shared.output import detail, remark
 from regscribe.tools.live import catalogue
+from regscribe.tools.live import config as configuration
 from regscribe.tools.live import target as targets
 from regscribe.tools.live.errors import TargetError
 from regscribe_runtime import BareDevice
@@ -45,10 +48,24 @@ _package = click.option(
     metavar="NAME",
     help="A package of drivers of your own, or its folder. Repeat for several.",
 )
-_config = click.option(
-    "--config",
-    metavar="FILE",
-    help="Devices by name; without it $REGSCRIBE_CONFIG, ./regscribe.yaml or ~/.config/regscribe/devices.yaml.",
+
+
+def _tell_config(_context: click.Context, _option: click.Parameter, value: str | None) -> str | None:
+    """Tell, with --verbose, which configuration counts."""
+    if is_verbose():
+        detail(f"configuration: {configuration.find(value) or 'none'}")
+    return value
+
+
+_config = declared(
+    click.option(
+        "--config",
+        metavar="FILE",
+        callback=_tell_config,
+        help="Devices by name; without it $REGSCRIBE_CONFIG, regscribe.yaml here or in a folder above, or devices.yaml "
+        "in the user's folder of configurations.",
+    ),
+    click.option("--no-config", "config", flag_value=configuration.NONE, help="Read no configuration at all."),
 )
 json_option = click.option("--json", "as_json", is_flag=True, help="Print one JSON object for programs.")
 driver_options = declared(_package, _config, json_option)

@@ -8,8 +8,17 @@ from typing import Any
 
 from regscribe.tools.live.errors import TargetError
 
-LOCAL = Path("regscribe.yaml")
-"""Looked for in the working directory first."""
+LOCAL = "regscribe.yaml"
+"""The name of a configuration in the working directory or in one above it."""
+
+NONE = os.devnull
+"""Named as the configuration: none at all, whatever lies about."""
+
+USER = "devices.yaml"
+"""The name of a configuration in the user's folder of configurations."""
+
+TRUSTED = (0,)
+"""Users whose configuration counts, besides the one who asks: root."""
 
 VARIABLE = "REGSCRIBE_CONFIG"
 """The environment variable that names a configuration."""
@@ -38,18 +47,37 @@ class Config:
 
 
 def load(path: str | Path | None = None) -> Config:
-    """The configuration at `path`, else of REGSCRIBE_CONFIG, ./regscribe.yaml or the user's own, else an empty one.
+    """The configuration that `find` finds, else an empty one.
 
     TargetError for a file that is named but absent, and for mistakes in it, with line and column of each.
     """
+    found = find(path)
+    return Config() if found is None else _read(found)
+
+
+def find(path: str | Path | None = None) -> Path | None:
+    """The file at `path`, else of REGSCRIBE_CONFIG, regscribe.yaml here or above, or the user's own; None for none.
+
+    One above the working directory counts only if it is the user's or root's: it names code that is run.
+    """
     named = path or os.environ.get(VARIABLE)
     if named:
-        return _read(Path(named))
-    own = Path(os.environ.get("XDG_CONFIG_HOME") or "~/.config", "regscribe", "devices.yaml").expanduser()
-    for one in (LOCAL, own):
-        if one.is_file():
-            return _read(one)
-    return Config()
+        return None if str(named) == NONE else Path(named)
+    import platformdirs  # noqa: PLC0415 - 10 ms that a configuration which is named does not need
+
+    own = platformdirs.user_config_path("regscribe", appauthor=False) / USER
+    here = [Path(LOCAL), *(folder / LOCAL for folder in Path.cwd().parents if _is_trusted(folder / LOCAL))]
+    return next((one for one in (*here, own) if one.is_file()), None)
+
+
+def _is_trusted(path: Path) -> bool:
+    """Whether a file belongs to the user or to root; always where files have no owners (Windows)."""
+    if not hasattr(os, "getuid"):
+        return True
+    try:
+        return path.stat().st_uid in {*TRUSTED, os.getuid()}
+    except OSError:
+        return False
 
 
 def _read(path: Path) -> Config:

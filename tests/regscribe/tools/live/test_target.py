@@ -1,3 +1,4 @@
+import os
 import re
 from collections.abc import Callable
 from pathlib import Path
@@ -130,6 +131,31 @@ def test_the_configuration_here_comes_before_that_of_the_user(tmp_path: Path, mo
     assert list(config.load().devices) == ["far"]
     Path("regscribe.yaml").write_text("format: 1\ndevices: {near: 'tcp:h'}", encoding="utf-8")
     assert list(config.load().devices) == ["near"]
+
+
+def test_a_configuration_above_counts_if_it_is_the_users_own(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setenv("XDG_CONFIG_HOME", str(tmp_path / "config"))
+    monkeypatch.delenv("REGSCRIBE_CONFIG", raising=False)
+    below = tmp_path / "a" / "b"
+    below.mkdir(parents=True)
+    monkeypatch.chdir(below)
+    (tmp_path / "regscribe.yaml").write_text("format: 1\ndevices: {above: 'tcp:h'}", encoding="utf-8")
+    assert list(config.load().devices) == ["above"]
+    (tmp_path / "a" / "regscribe.yaml").write_text("format: 1\ndevices: {nearer: 'tcp:h'}", encoding="utf-8")
+    assert list(config.load().devices) == ["nearer"]
+    monkeypatch.setattr(config, "TRUSTED", ())
+    monkeypatch.setattr(os, "getuid", lambda: tmp_path.stat().st_uid + 1)
+    assert config.find() is None
+    monkeypatch.delattr(os, "getuid")
+    assert list(config.load().devices) == ["nearer"]
+
+
+def test_a_named_configuration_may_be_none(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.chdir(tmp_path)
+    Path("regscribe.yaml").write_text("format: 1\ndevices: {near: 'tcp:h'}", encoding="utf-8")
+    assert config.load(config.NONE).devices == {}
+    monkeypatch.setenv("REGSCRIBE_CONFIG", config.NONE)
+    assert config.load().devices == {}
 
 
 def test_a_device_that_answers_for_one_model_alone_tells_it(serve: Callable[..., Any]) -> None:
