@@ -14,7 +14,7 @@ function shownCalculator(item, choice) {
   const { map, entry } = item
   const box = element("section", { class: "calculator", "aria-label": "Calculator" })
   const again = (focus) => {
-    const model = modelsOf(map, entry).includes(choice.model) ? choice.model : modelsOf(map, entry)[0]
+    const { model } = choice
     const register = registerOf(map, entry, model, choice.index)
     const view = register.views.find((one) => one.name === choice.view) ?? register.views.find((one) => one.preferred) ?? register.views[0]
     if (!view) return
@@ -54,15 +54,14 @@ function calculatorParts(state) {
   const { item, choice, register, view, again } = state
   return [
     element("h3", {}, "Calculator"),
-    element("div", { class: "choices" }, modelPicker(state), elementPicker(state),
-      register.views.length > 1 ? labelled("View", picker(register.views.map((one) => [one.name, `${one.name} at ${one.address}`]), view.name, (name) => { choice.view = name; restart(choice); again("[data-choice=view]") }, { "data-choice": "view" })) : null),
+    register.views.length > 1 ? element("div", { class: "choices" }, labelled("View", picker(register.views.map((one) => [one.name, `${one.name} at ${one.address}`]), view.name, (name) => { choice.view = name; restart(choice); again("[data-choice=view]") }, { "data-choice": "view" }))) : null,
     surroundingFields(item.map, state.model, state.asked, () => refresh(state)),
     element("div", { class: "sides" }, wordsSide(state), valueSide(state)),
     element("div", { class: "copies" }, copyLines(state)),
   ].filter(Boolean)
 }
 
-/** Begin with the words of the default again: another view or model has others. */
+/** Begin with the words of the default again: another view has others. */
 function restart(choice) {
   choice.words = null
   choice.text = null
@@ -74,19 +73,6 @@ function refresh(state) {
   const [from, to] = [document.activeElement?.selectionStart, document.activeElement?.selectionEnd]
   state.again(focused ? `[data-known="${CSS.escape(focused)}"]` : null)
   if (focused && typeof from === "number") document.activeElement.setSelectionRange?.(from, to)
-}
-
-function modelPicker({ item, choice, model, again }) {
-  const models = modelsOf(item.map, item.entry)
-  if (models.length < 2) return null
-  return labelled("Model", picker(models.map((one) => [one, one]), model, (name) => { choice.model = name; restart(choice); again("[data-choice=model]") }, { "data-choice": "model" }))
-}
-
-function elementPicker({ item, choice, model, register, again }) {
-  const indices = elementsOf(item.map, item.entry, model)
-  if (indices.length < 2) return null
-  const now = String(register.index)
-  return labelled("Element", picker(indices.map((one) => [String(one), one.join(", ")]), now, (text) => { choice.index = text.split(",").map(Number); again("[data-choice=element]") }, { "data-choice": "element" }))
 }
 
 /** The words as they stand on the wire: in hexadecimal, in decimal and bit by bit. */

@@ -65,13 +65,16 @@ function commandItem(map, entry) {
   }
 }
 
-/** The name of a register; of one in an array that of all elements: `Ramp Time 1 to 8`. */
+/** The name of a register; of one in an array that of all elements: `Ramp Time 1 … 8`. */
 function nameOf(version) {
   const { name, elements } = version
   const change = elements?.vary.name
   if (!change) return name
   const count = elements.index.length
-  return `${name} … ${changed(change, elements.index[count - 1], count - 1)}`
+  const last = changed(change, elements.index[count - 1], count - 1).split(" ")
+  const words = name.split(" ")
+  const same = last.findIndex((word, place) => word !== words[place])
+  return `${name} … ${last.slice(Math.max(same, 0)).join(" ")}`
 }
 
 const groupName = (map, id) => map.groups?.find((one) => one.id === id)?.name ?? id ?? ""

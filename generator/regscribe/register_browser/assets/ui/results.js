@@ -6,13 +6,13 @@ const MOST_ROWS = 200
 const LONG_WHY = 3
 
 /** A row of the list: a link that opens the register. */
-function shownRow({ item, why }) {
+function shownRow({ item, why, path }) {
   const { map, entry, anchor } = item
   const isOpen = browser.open?.item === item
   const first = item.places[0]
   const models = entry.models ? [element("span", { class: "models" }, entry.models.join(", "))] : []
   return element("li", {},
-    element("a", { href: hashOfAnchor(map, anchor), class: "row", "aria-current": isOpen ? "true" : null },
+    element("a", { href: hashOfAnchor(map, anchor, path), class: "row", "aria-current": isOpen ? "true" : null },
       element("span", { class: "place" }, first ? placeSpan(first, item) : ""),
       element("span", { class: "name" }, item.name),
       element("code", { class: "path" }, item.path),

@@ -19,7 +19,7 @@ function shownTable(table, map) {
   const body = [element("thead", {}, element("tr", {}, heads)), element("tbody", {}, rows)]
   const title = plainText(table.title)
   return element("section", { class: "table" },
-    title ? element("h4", {}, shownRuns(table.title, map)) : null,
+    title ? element("h3", {}, shownRuns(table.title, map)) : null,
     element("div", { class: "scrolls", tabindex: "0", role: "region", "aria-label": visibleText(title || "Table") }, element("table", {}, body)))
 }
 

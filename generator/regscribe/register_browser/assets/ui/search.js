@@ -23,8 +23,8 @@ function addressBook(items) {
 }
 
 /**
- * @returns {{items: {item: Item, rank: number, why: string[]}[], readings: {text: string, count: number}[]}}
- *   the best first; readings are the meanings of what looks like an address, with the registers that each has
+ * @returns {{items: {item: Item, rank: number, why: string[], path?: string}[], readings: {text: string, count: number}[]}}
+ *   the best first, with the path of the element that was meant; readings are the meanings of what looks like an address, with the registers that each has
  */
 function search(query) {
   const tokens = query.toLowerCase().split(/\s+/).filter(Boolean)
@@ -39,7 +39,7 @@ function search(query) {
   return { items: found, readings }
 }
 
-const joined = (hit, more) => more && { item: hit.item, rank: hit.rank + more.rank, why: [...hit.why, ...more.why] }
+const joined = (hit, more) => more && { item: hit.item, rank: hit.rank + more.rank, why: [...hit.why, ...more.why], path: more.path ?? hit.path }
 
 /** The items at the addresses that a token can mean; `readings` gets each meaning. */
 function addressHits(token, readings) {
@@ -48,7 +48,7 @@ function addressHits(token, readings) {
     const hits = (browser.book.get(reading.address) ?? []).filter((hit) => fits(hit, reading))
     readings.push({ text: readingText(reading), count: new Set(hits.map((hit) => hit.item)).size })
     for (const hit of hits) {
-      const known = found.get(hit.item) ?? { rank: EXACT_ADDRESS - hit.word, why: [] }
+      const known = found.get(hit.item) ?? { rank: EXACT_ADDRESS - hit.word, why: [], path: hit.item.entry.elements ? hit.place.path : undefined }
       const why = placeText(hit)
       if (!known.why.includes(why)) known.why.push(why)
       found.set(hit.item, known)

@@ -3,7 +3,7 @@
  */
 
 const browser = {
-  maps: [], items: [], book: new Map(), state: { query: "", chosen: {}, open: "", map: "" }, open: null, opened: new Set(["model", "access"]),
+  maps: [], items: [], book: new Map(), state: { query: "", chosen: {}, open: "", map: "", element: "" }, open: null, opened: new Set(matchMedia("(min-width: 1101px)").matches ? ["model", "access"] : []),
   said: new Map(), choices: new Map(), most: MOST_ROWS, calculates: true,
 }
 
@@ -34,7 +34,7 @@ function listen() {
 function follow() {
   const state = readHash(location.hash)
   if (writeHash(state) === writeHash(browser.state)) return
-  const isOther = state.open !== browser.state.open || state.map !== browser.state.map
+  const isOther = ["open", "map", "element"].some((name) => state[name] !== browser.state[name])
   browser.state = state
   const field = document.getElementById("search")
   if (field.value !== state.query) field.value = state.query
@@ -54,7 +54,7 @@ function go(state, isTyping = false) {
 function close() {
   const row = document.querySelector('#results [aria-current="true"]')
   const href = row?.getAttribute("href")
-  go({ ...browser.state, open: "", map: "" })
+  go({ ...browser.state, open: "", map: "", element: "" })
   const again = [...document.querySelectorAll("#results .row")].find((one) => one.getAttribute("href")?.endsWith(href?.split("open=").pop() ?? "\n"))
   ;(again ?? document.getElementById("search")).focus()
 }
@@ -70,18 +70,25 @@ function reveal() {
 }
 
 /** What the state opens: an item, or a map with the anchor of one of its tables. */
-function openedOf({ open: anchor, map: id }) {
+function openedOf({ open: anchor, map: id, element: path }) {
   if (!anchor) return null
   const isThere = (map) => !id || map.id === id
   const item = browser.items.find((one) => one.anchor === anchor && isThere(one.map))
-  if (item) return { item, choice: choiceOf(item) }
+  if (item) return { item, choice: choiceOf(item, path) }
   const map = browser.maps.find(isThere)
   return map && /^(?:about|condition-|unit-|program-)/.test(anchor) ? { map } : null
 }
 
-function choiceOf(item) {
-  const key = `${item.map.id} ${item.anchor}`
-  if (!browser.choices.has(key)) browser.choices.set(key, { model: modelsOf(item.map, item.entry)[0], view: "", words: null, text: null })
+/** What is chosen of an item: at first the model that the list is filtered by, and the element that was found. */
+function choiceOf(item, path = "") {
+  const { map, entry, anchor } = item
+  const key = `${map.id} ${anchor} ${path}`
+  if (!browser.choices.has(key)) {
+    const models = modelsOf(map, entry)
+    const model = models.find((one) => browser.state.chosen.model?.includes(one)) ?? models[0]
+    const index = path ? elementsOf(map, entry, model).find((one) => registerOf(map, entry, model, one).path === path) : undefined
+    browser.choices.set(key, { model, index, view: "", words: null, text: null })
+  }
   return browser.choices.get(key)
 }
 
@@ -95,9 +102,13 @@ function render() {
   document.getElementById("facets").replaceChildren(...Object.keys(FACETS).map((name) => shownFacet(name, items.map((one) => one.item), chosen)).filter(Boolean), ...clearButton(chosen))
   showResults(found)
   document.getElementById("count").textContent = countText(found.length)
-  const details = document.getElementById("details")
+  showOpened()
+}
+
+/** Show what is open. */
+function showOpened() {
   document.body.classList.toggle("opened", Boolean(browser.open))
-  details.replaceChildren(...flat(browser.open ? (browser.open.item ? shownItem(browser.open) : shownMap(browser.open.map)) : shownWelcome()))
+  document.getElementById("details").replaceChildren(...flat(browser.open ? (browser.open.item ? shownItem(browser.open) : shownMap(browser.open.map)) : shownWelcome()))
 }
 
 const flat = (nodes) => nodes.flat(Infinity).filter(Boolean)

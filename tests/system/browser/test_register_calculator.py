@@ -1,0 +1,127 @@
+"""The calculator of the register browser, held to the worked examples of the manual of Series C and to IEEE 754."""
+
+import pytest
+from playwright.sync_api import Page, expect
+
+from .pages import Opener
+from .register_pages import SERIES_C, known, map_of, reading, written
+
+pytestmark = pytest.mark.browser
+
+
+@pytest.fixture(scope="module")
+def address(tmp_path_factory: pytest.TempPathFactory) -> str:
+    return written(tmp_path_factory.mktemp("series-c"), map_of(SERIES_C))
+
+
+@pytest.fixture
+def setpoint(open_page: Opener, address: str) -> Page:
+    """Setpoint (RAM): an integer at 2, ten times at 1002, an IEEE number at 8004 whose words 4084 puts in order."""
+    return open_page(f"{address}#register-setpoint_ram")
+
+
+def write_words(page: Page, *words: str) -> None:
+    for place, word in enumerate(words):
+        field = page.locator(f'[data-word="16-{place}"]')
+        field.fill(word)
+        field.press("Tab")
+
+
+def test_a_linear_input_has_decimals_of_another_register(setpoint: Page) -> None:
+    setpoint.locator("[data-choice=view]").select_option("base")
+    write_words(setpoint, "1D97")
+    assert reading(setpoint) == "7575 °F"
+    known(setpoint, "input_type").select_option("14")
+    known(setpoint, "linear_decimal_position").fill("2")
+    assert reading(setpoint) == "75.75"  # section 3.6.2.3 of the manual; a linear input has no unit
+    known(setpoint, "linear_decimal_position").fill("1")
+    write_words(setpoint, "05E1")
+    assert reading(setpoint) == "150.5"  # section 3.4.1
+
+
+def test_the_order_of_words_is_that_of_the_register(setpoint: Page) -> None:
+    write_words(setpoint, "0000", "437A")
+    assert reading(setpoint) == "250 °F"  # section 1.2.7.2: 0000 437A in the order that is usual
+    known(setpoint, "ieee_register_ordering").select_option("0")
+    assert reading(setpoint) != "250 °F"
+    write_words(setpoint, "437A", "0000")
+    assert reading(setpoint) == "250 °F"
+
+
+def test_a_value_becomes_words_a_line_of_python_and_a_request(setpoint: Page) -> None:
+    setpoint.locator("[data-choice=view]").select_option("x10")
+    known(setpoint, "temperature_decimal_position").fill("1")
+    setpoint.get_by_label("Value to write").fill("150.5")
+    assert setpoint.locator('[data-word="16-0"]').input_value() == "0x05E1"  # section 3.4.1
+    assert setpoint.locator('[data-word="10-0"]').input_value() == "1505"
+    labels, texts = (
+        setpoint.locator(".lines dt").all_inner_texts(),
+        setpoint.locator(".lines dd code").all_inner_texts(),
+    )
+    lines = dict(zip(labels, texts, strict=True))
+    assert lines == {
+        "Words": "05E1",
+        "Python, read": 'controller.setpoint_ram.read(view="x10")',
+        "Python, write": 'controller.setpoint_ram.write(150.5, view="x10")',
+        "Command line, read": "regscribe read DEVICE setpoint_ram",
+        "Command line, write": "regscribe write DEVICE setpoint_ram 150.5 --view x10",
+        "RTU request, read": "01 03 03 EA 00 01 A5 BA",
+        "RTU request, write": "01 06 03 EA 05 E1 6B 62",
+    }
+
+
+def test_a_refusal_says_why(setpoint: Page) -> None:
+    setpoint.get_by_label("Value to write").fill("1401")
+    expect(setpoint.locator(".refused")).to_have_text("Refused: 1401 lies outside the range")
+    known(setpoint, "setpoint_high_limit").fill("1402")
+    expect(setpoint.locator(".refused")).to_have_count(0)
+    known(setpoint, "setpoint_high_limit").fill("")
+    expect(setpoint.locator(".refused")).to_contain_text("setpoint_high_limit is not known")
+
+
+def test_a_view_that_stops_shows_no_value(open_page: Opener, address: str) -> None:
+    page = open_page(f"{address}#register-alarm_1_process_setpoint")
+    page.locator("[data-choice=view]").select_option("x10")
+    write_words(page, "7FFF")
+    assert reading(page) == "the view stops here: this is no value"  # section 3.8.4.2.3
+
+
+def test_a_fault_has_its_name(open_page: Opener, address: str) -> None:
+    page = open_page(f"{address}#register-process_value")
+    page.locator("[data-choice=view]").select_option("base")
+    page.locator('[data-word="10-0"]').fill("-32768")
+    page.locator('[data-word="10-0"]').press("Tab")
+    assert reading(page) == "Low Error (a fault, no value)"
+
+
+def test_bits_are_turned_by_clicking_and_have_their_names(open_page: Opener, address: str) -> None:
+    page = open_page(f"{address}#model=16C&open=register-led_status_indicator_byte")
+    page.get_by_role("button", name="Bit 4: A2").click()
+    page.get_by_role("button", name="Bit 5: A1").click()
+    assert page.locator('[data-word="10-0"]').input_value() == "48"  # erratum on 4.15.2: 48 means A1 and A2
+    lit = page.locator(".parts .set").all_inner_texts()
+    assert [text.split()[0] for text in lit] == ["A2", "A1"]
+    expect(page.get_by_role("button", name="Bit 5: A1")).to_be_focused()
+
+
+def test_a_member_is_picked_by_name(open_page: Opener, address: str) -> None:
+    page = open_page(f"{address}#register-input_type")
+    assert reading(page) == "3 = J thermocouple"
+    page.get_by_label("Pick a member").select_option(label="11 = RTD")
+    assert page.locator('[data-word="16-0"]').input_value() == "0x000B"
+    page.get_by_label("Value to write").fill("J thermocouple")
+    assert reading(page) == "3 = J thermocouple"
+    assert "controller.input_type.write_raw((3,))" in page.locator(".lines").inner_text()
+
+
+def test_what_is_said_of_a_device_stays_for_its_other_registers(setpoint: Page, address: str) -> None:
+    known(setpoint, "input_type").select_option("14")
+    setpoint.goto(f"{address}#register-process_value")
+    assert known(setpoint, "input_type").input_value() == "14"
+
+
+def test_an_address_is_copied(setpoint: Page) -> None:
+    setpoint.context.grant_permissions(["clipboard-read", "clipboard-write"])
+    setpoint.get_by_role("button", name="Copy 0x1F44").click()
+    expect(setpoint.locator("#said")).to_have_text("Copied 0x1F44")
+    assert setpoint.evaluate("navigator.clipboard.readText()") == "0x1F44"

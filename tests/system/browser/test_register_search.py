@@ -1,0 +1,129 @@
+"""Search of the register browser, its filters, and its state in the address of the page."""
+
+from pathlib import Path
+
+import pytest
+from playwright.sync_api import Page, expect
+
+from .pages import Opener
+from .register_pages import SERIES_C, every_map, map_of, names, search, written
+
+pytestmark = pytest.mark.browser
+
+
+@pytest.fixture(scope="module")
+def address(tmp_path_factory: pytest.TempPathFactory) -> str:
+    return written(tmp_path_factory.mktemp("series-c"), map_of(SERIES_C))
+
+
+@pytest.fixture
+def series_c(open_page: Opener, address: str) -> Page:
+    return open_page(address)
+
+
+@pytest.mark.parametrize(
+    ("query", "first", "why"),
+    [
+        ("4049", "Input Type", "base view at 4049"),
+        ("0xFD1", "Input Type", "base view at 4049"),
+        ("$fd1", "Input Type", "base view at 4049"),
+        ("FD1h", "Input Type", "base view at 4049"),
+        ("44050", "Input Type", "base view at 4049"),
+        ("444050", "", ""),
+        ("1002", "Setpoint (RAM)", "x10 view at 1002"),
+        ("8004", "Setpoint (RAM)", "word 1 of 2 of ieee view at 8004"),
+        ("8005", "Setpoint (RAM)", "word 2 of 2 of ieee view at 8005"),
+        ("48006", "Setpoint (RAM)", "word 2 of 2 of ieee view at 8005"),
+        ("4016", "Ramp Time 1 … 8", "segments[3].ramp_time, base view at 4016"),
+        ("input_type", "Input Type", ""),
+        ("Input Type", "Input Type", ""),
+        ("bAud", "Baud Rate", ""),
+        ("thermocouple platinel", "Input Type", "value: Platinel II thermocouple"),
+        ("4.4.2 blank", "Setpoint Display Blanking", "section: 4.4.2"),
+        ("7000", "Load All Parameter Defaults", "writes 7000"),
+        ("nothing has this name", "", ""),
+    ],
+)
+def test_what_people_write_finds_a_register(series_c: Page, query: str, first: str, why: str) -> None:
+    found = search(series_c, query)
+    assert (found or [""])[0] == first
+    assert why in (series_c.locator("#results .why").first.inner_text() if why else "")
+
+
+def test_an_address_with_two_meanings_shows_both(series_c: Page) -> None:
+    search(series_c, "44050")
+    assert series_c.locator("#readings li").all_inner_texts() == [
+        "wire 44050: nothing there",
+        "holding 4049 (Modicon): 1 register",
+    ]
+
+
+def test_all_maps_are_searched_at_once(open_page: Opener, tmp_path: Path) -> None:
+    page = open_page(written(tmp_path, *every_map()))
+    assert search(page, "0xFD1") == ["Input Type", "Input Type"]
+    assert page.locator("#results .map").all_inner_texts() == ["Athena Series C", "Omega CN8200 Series"]
+    page.locator("#results .row").nth(1).click()
+    assert page.url.endswith("#q=0xFD1&open=omega%2Fcn8200%2Fregister-input_type")
+    page.reload()
+    assert page.locator("#details .summary").inner_text().endswith("Omega CN8200 Series")
+
+
+def test_filters_count_and_combine(series_c: Page) -> None:
+    readable = series_c.get_by_label("read only", exact=False)
+    total = int(series_c.locator("label", has=readable).locator(".number").inner_text())
+    readable.check()
+    expect(series_c.locator("#count")).to_contain_text(f"{total} of ")
+    series_c.get_by_label("1ZC", exact=False).check()
+    narrowed = names(series_c)
+    assert 0 < len(narrowed) < total
+    assert "Process Value" in narrowed
+    assert "#model=1ZC" in series_c.url or "&model=1ZC" in series_c.url
+    series_c.reload()
+    assert names(series_c) == narrowed
+    series_c.get_by_role("button", name="Clear filters").click()
+    assert len(names(series_c)) > total
+
+
+def test_a_link_reproduces_what_was_seen_and_back_returns(series_c: Page, address: str) -> None:
+    search(series_c, "alarm")
+    found = names(series_c)
+    series_c.locator("#results .row").first.click()
+    expect(series_c.get_by_role("heading", level=2)).to_have_text(found[0])
+    series_c.go_back()
+    assert names(series_c) == found
+    expect(series_c.locator("#details h2")).to_have_text("Choose a register")
+    series_c.goto(f"{address}#register-input_type")
+    expect(series_c.get_by_role("heading", level=2)).to_have_text("Input Type")
+
+
+def test_a_link_in_a_condition_leads_to_its_meaning(series_c: Page, address: str) -> None:
+    series_c.goto(f"{address}#register-setpoint_ram")
+    series_c.locator("#details").get_by_role("link", name="linear input").click()
+    assert series_c.url.endswith("#condition-linear_input")
+    expect(series_c.locator("#condition-linear_input")).to_be_in_viewport()
+    series_c.locator("#details").get_by_role("link", name="input_type").first.click()
+    expect(series_c.get_by_role("heading", level=2)).to_have_text("Input Type")
+
+
+def test_an_element_that_was_searched_is_the_one_that_opens(series_c: Page) -> None:
+    search(series_c, "4016")
+    series_c.keyboard.press("Enter")
+    assert series_c.locator(".addresses code").first.inner_text() == "4016"
+    assert series_c.get_by_label("Element").input_value() == "3"
+
+
+def test_the_keyboard_is_enough(series_c: Page) -> None:
+    series_c.keyboard.press("/")
+    series_c.keyboard.type("setpoint limit")
+    series_c.keyboard.press("ArrowDown")
+    series_c.keyboard.press("ArrowDown")
+    series_c.keyboard.press("ArrowUp")
+    first = names(series_c)[0]
+    expect(series_c.locator("#results .row").first).to_be_focused()
+    series_c.keyboard.press("Enter")
+    expect(series_c.get_by_role("heading", level=2)).to_have_text(first)
+    expect(series_c.get_by_role("heading", level=2)).to_be_focused()
+    series_c.keyboard.press("Escape")
+    expect(series_c.locator("#results .row").first).to_be_focused()
+    series_c.keyboard.press("ArrowUp")
+    expect(series_c.get_by_role("searchbox")).to_be_focused()
