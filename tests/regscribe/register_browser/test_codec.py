@@ -5,6 +5,8 @@ from typing import Any
 import pytest
 
 from regscribe.emit.vectors import document as vectors
+from regscribe.map_files import data_folder
+from regscribe.pipeline import compile_map
 from regscribe.register_browser import document
 
 from ...conformance.browser_codec import evaluate  # noqa: TID252 (test folders are no packages)
@@ -79,8 +81,36 @@ def test_several_words_are_written_by_function_16() -> None:
     assert bytes(found["frame"][:-2]).hex(" ") == "01 10 00 0a 00 02 04 00 0a 01 02"
 
 
-def test_what_nothing_reads_is_said() -> None:
-    assert ask("codec.frame(map, named('measured'), view(named('measured')), 1, [1])")["refused"]
+def test_without_a_request_the_reason_is_said() -> None:
+    assert ask("codec.frame(map, named('measured'), view(named('measured')), 1, [1])") == {
+        "refused": "no function writes this view"
+    }
+    long = {"protocol": {"functions": [3, 16], "limits": {"read_words": 2}}, "registers": PARTS["registers"][5:6]}
+    assert ask("codec.frame(map, named('total'), { ...view(named('total')), words: 3 }, 1)", long) == {
+        "refused": "one request has 2 words at most, and these are 3"
+    }
+
+
+@pytest.mark.parametrize(
+    ("name", "path", "place", "unit", "words", "frame"),  # as the manuals print them
+    [
+        ("athena/series-c", "manual_control_output_1_percent", 0, 156, [50], "9C 06 0F A9 00 32 C7 66"),
+        ("athena/series-c", "setpoint_eeprom_and_ram", 2, 1, [0x437A, 0], "01 10 1F 42 00 02 04 43 7A 00 00 CE 2B"),
+        ("athena/platinum-m300", "stand_by_setpoint", 0, 38, [926], "26 06 00 19 03 9E DF 82"),
+    ],
+)
+def test_a_write_has_the_bytes_of_the_manual(
+    name: str, path: str, place: int, unit: int, words: list[int], frame: str
+) -> None:
+    register_map = compile_map(data_folder("maps") / f"{name}.yaml").map
+    assert register_map is not None
+    found = evaluate(
+        "(codec, { data, path, place, unit, words }) => { const [map] = codec.open(data);"
+        "const register = codec.find(map, map.models[0].name, path);"
+        "return codec.frame(map, register, register.views[place], unit, words) }",
+        {"data": document([register_map]), "path": path, "place": place, "unit": unit, "words": words},
+    )
+    assert bytes(found["frame"]).hex(" ").upper() == frame
 
 
 def test_what_decides_is_named_apart_for_reading_and_for_writing() -> None:

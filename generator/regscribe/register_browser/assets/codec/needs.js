@@ -36,16 +36,31 @@ const WRITING = { holding: [6, 16], coil: [5, 15] }
  * @returns {{frame: number[], function: number}|{refused: string}}
  */
 function frame(map, register, view, unit, words = null) {
-  if (!(view.space in READING)) return { refused: `this page makes no requests for the space ${view.space}` }
-  if (register.block) return { refused: `where the block ${register.block} stands, only the device tells` }
-  const supported = map.protocol?.functions ?? []
-  const may = (code) => (!view.functions.length || view.functions.includes(code)) && (!supported.length || supported.includes(code))
-  const codes = words ? (WRITING[view.space] ?? []).filter((code, several) => several || words.length === 1) : [READING[view.space]]
-  const code = codes.find(may)
-  if (code === undefined) return { refused: `no function ${words ? "writes" : "reads"} this view` }
+  const why = whyNoRequest(map, register, view, words)
+  if (why) return { refused: why }
+  const code = codesOf(map, view, words)[0]
   const body = [unit, code, ...bodyOf(code, view, words)]
   const crc = crcOf(body)
   return { frame: [...body, crc & 255, crc >> 8], function: code }
+}
+
+function whyNoRequest({ protocol = {} }, register, view, words) {
+  const isApart = Array.isArray(view.word_order) && view.word_order.length < view.words
+  const most = view.space === "coil" || view.space === "discrete" ? Infinity : words ? protocol.write_words : protocol.read_words
+  if (!Object.hasOwn(READING, view.space)) return `this page makes no requests for the space ${view.space}`
+  if (register.block) return `where the block ${register.block} stands, only the device tells`
+  if (register.page) return `page ${register.page} must be selected first`
+  if (words && isApart) return "other things stand between its words"
+  if (view.words > most) return `one request has ${most} words at most, and these are ${view.words}`
+  return codesOf({ protocol }, view, words).length ? "" : `no function ${words ? "writes" : "reads"} this view`
+}
+
+/** The functions that may read a view, or write words to it. */
+function codesOf({ protocol }, view, words) {
+  const may = (code) => [view.functions, protocol?.functions ?? []].every((codes) => !codes.length || codes.includes(code))
+  if (!words) return [READING[view.space]].filter(may)
+  const [single, several] = WRITING[view.space] ?? []
+  return [...(words.length === 1 ? [single] : []), several].filter((code) => code !== undefined && may(code))
 }
 
 const pairOf = (word) => [(word >> 8) & 255, word & 255]
