@@ -28,7 +28,7 @@ from .wire import Memory, Server
 
 FEW, FEW_IDS = 16, 4
 SOUND = [case for case in cases() if not case.refused]
-TCP, SERIAL = ("--tcp",), ("--baud", "9600", "--format", "8N1")
+TCP, SERIAL = ("--tcp",), ("--baud", "9600", "--line-format", "8N1")
 """The lines that drivers talk over here, as the command is told."""
 Requests = list[tuple[int, int, int]]
 """Function, address and quantity of each, in the order of sending."""

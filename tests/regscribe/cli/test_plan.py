@@ -88,7 +88,7 @@ def test_the_line_decides_what_a_plan_costs(planned: Cli) -> None:
 
     # 8 + 7 characters and 7 of silence; 5 ms and 1 ms of the device
     assert ms() == pytest.approx(22 * 10 / 9.6 + 6, abs=0.001)
-    assert ms("--baud", "1200", "--format", "8E1") == pytest.approx(22 * 11 / 1.2 + 6, abs=0.001)
+    assert ms("--baud", "1200", "--line-format", "8E1") == pytest.approx(22 * 11 / 1.2 + 6, abs=0.001)
     assert ms("--tcp") < 8
     assert ms("--tcp", "--baud", "9600") > ms()
     assert ms("--ascii") == pytest.approx((17 + 15) * 10 / 9.6 + 6, abs=0.001)  # : + 2 x 7 + CR LF; : + 2 x 6 + CR LF
@@ -115,7 +115,7 @@ def test_arrays_and_all_registers_can_be_named(planned: Cli) -> None:
         (["--model", "M1", "key"], "`key` of M1 can only be written"),
         (["--model", "M1"], "say what to read: --all, --group ID, or ids of registers"),
         (["--model", "M1", "--all", "mode"], "say what to read"),
-        (["--model", "M1", "--all", "--format", "9X1"], "--format 9X1: write data bits"),
+        (["--model", "M1", "--all", "--line-format", "9X1"], "--line-format 9X1: write data bits"),
         (["--model", "M1", "--all", "--baud", "0"], "--baud"),
     ],
 )

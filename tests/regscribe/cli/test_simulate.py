@@ -143,7 +143,7 @@ def _until(fd: int, pattern: bytes) -> bytes:
         ("acme/oven --model M1 --tcp :0 --latency fast", "neither off, real, nor a factor"),
         ("acme/oven --model M1 --tcp :0 --speed -1", "--speed"),
         ("acme/oven --model M1 --tcp :0 --paced", "--paced goes with --rtu pty only"),
-        ("acme/oven --model M1 --tcp :0 --format 8X1", "such as 8N1"),
+        ("acme/oven --model M1 --tcp :0 --line-format 8X1", "such as 8N1"),
         ("acme/oven --model M1 --tcp :0 --process on", "does not say which registers control"),
         ("acme/oven --model M1 --tcp :0 --process time_constant=0", "time_constant 0 must be more than 0"),
         ("acme/oven --model M1 --tcp :0 --process time_konstant=5", "did you mean `time_constant`?"),

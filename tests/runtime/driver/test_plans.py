@@ -15,7 +15,7 @@ from regscribe.tools.live import catalogue
 from regscribe_runtime.values.serial_line import SerialLine
 
 Requests = list[tuple[int, int, int]]
-SERIAL = ("--baud", "9600", "--format", "8N1")
+SERIAL = ("--baud", "9600", "--line-format", "8N1")
 MAPS = sorted(path for path in shipped().rglob("*.yaml") if not path.name.endswith(".library.yaml"))
 HEAD = """\
 format: 1

@@ -12,6 +12,7 @@ from regscribe.breaking.change import Change, Level, Verdict, verdict_of
 from regscribe.breaking.compare import Comparison, compare
 from regscribe.checks import NOTHING_WAIVED
 from regscribe.cli.shared.changes_text import as_json, as_text
+from regscribe.cli.shared.ci_formats import as_concise, as_gitlab, as_junit
 from regscribe.cli.shared.compiled_maps import compiled
 from regscribe.cli.shared.diagnostic_text import findings
 from regscribe.cli.shared.earlier_maps import Earlier, earlier_maps
@@ -22,6 +23,8 @@ from regscribe.cli.shared.report_formats import as_github, as_sarif
 from regscribe.model import Diagnostic, RegisterMap, Severity, Span, Waiver
 from regscribe.pipeline import Compiled, compile_map
 from regscribe.source import display_name
+
+FORMS = ("text", "concise", "json", "github", "gitlab", "junit", "sarif", "markdown")
 
 VERDICTS = [verdict.word for verdict in Verdict if verdict]
 
@@ -46,7 +49,7 @@ VERDICTS = [verdict.word for verdict in Verdict if verdict]
     show_default=True,
     help="The least verdict that ends with exit code 1.",
 )
-@click.option("--format", "form", type=click.Choice(["text", "json", "github", "sarif", "markdown"]), default="text")
+@click.option("--format", "form", type=click.Choice(FORMS), default="text", show_default=True)
 def command(*, paths: tuple[str, ...], against: str, level: str, fail_on: str, form: str) -> int:
     """Say what changed between two versions of maps, what it breaks, and which version number it asks for.
 
@@ -118,8 +121,14 @@ def _print(form: str, found: Comparison, shown: Sequence[Change], level: Level) 
             tell(as_json(found, shown, level))
         case "markdown":
             tell(report.markdown(shown, level))
+        case "concise":
+            tell(as_concise(report.diagnostics(shown, level)))
         case "github":
             tell(as_github(report.diagnostics(shown, level)))
+        case "gitlab":
+            tell(as_gitlab(report.diagnostics(shown, level)))
+        case "junit":
+            tell(as_junit(report.diagnostics(shown, level)))
         case "sarif":
             tell(as_sarif(report.diagnostics(shown, level), {rule.id: rule for rule in RULES}))
         case _:

@@ -4,6 +4,7 @@ from pathlib import Path
 
 import click
 
+from regscribe.cli.shared.ci_formats import as_concise, as_gitlab, as_junit
 from regscribe.cli.shared.compiled_maps import compiled
 from regscribe.cli.shared.diagnostic_text import count, findings, tally
 from regscribe.cli.shared.map_arguments import find_maps
@@ -11,6 +12,9 @@ from regscribe.cli.shared.output import show, tell, tell_done
 from regscribe.cli.shared.report_formats import as_github, as_json, as_sarif
 from regscribe.cli.shared.standard_input import STDIN
 from regscribe.pipeline import has_errors
+from regscribe.source import display_name
+
+FORMS = ("text", "concise", "json", "github", "gitlab", "junit", "sarif")
 
 
 @click.command(
@@ -18,7 +22,7 @@ from regscribe.pipeline import has_errors
     "Exit code 0: no error (warnings do not count, unless --strict), 1: findings, 2: wrong usage.",
 )
 @click.argument("paths", nargs=-1, metavar="[PATH]...")
-@click.option("--format", "form", type=click.Choice(["text", "json", "github", "sarif"]), default="text")
+@click.option("--format", "form", type=click.Choice(FORMS), default="text", show_default=True)
 @click.option(
     "--stdin-filename",
     "stdin_name",
@@ -41,8 +45,14 @@ def command(*, paths: tuple[str, ...], form: str, stdin_name: Path, strict: bool
     match form:
         case "json":
             tell(as_json(found))
+        case "concise":
+            tell(as_concise(found))
         case "github":
             tell(as_github(found))
+        case "gitlab":
+            tell(as_gitlab(found))
+        case "junit":
+            tell(as_junit(found, map(display_name, maps)))
         case "sarif":
             from regscribe.checks import catalogue  # noqa: PLC0415 - 7 ms for the texts of rules, which only SARIF shows
 

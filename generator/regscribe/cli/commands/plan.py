@@ -10,7 +10,7 @@ from regscribe.cli.shared.compiled_maps import compiled_maps
 from regscribe.cli.shared.diagnostic_text import count
 from regscribe.cli.shared.map_arguments import find_map
 from regscribe.cli.shared.output import print_json, raised_as, refuse, remark, show_table, tell
-from regscribe.cli.shared.target_options import base_option
+from regscribe.cli.shared.target_options import base_option, json_option
 from regscribe.emit.words import span_words
 from regscribe.model import RegisterMap, parse
 from regscribe.model.located import arrays_in
@@ -43,14 +43,14 @@ MOST_NAMED = 3
 @click.option("--all", "everything", is_flag=True, help="All registers.")
 @click.option("--baud", type=click.IntRange(min=50, max=10_000_000), help="Speed of the line; default: as delivered.")
 @click.option(
-    "--format", "form", metavar="8N1", help="Characters: data bits, parity, stop bits; default: as delivered."
+    "--line-format", "form", metavar="8N1", help="Characters: data bits, parity, stop bits; default: as delivered."
 )
 @click.option("--ascii", "framing", flag_value="ascii", default="rtu", help="ASCII instead of RTU frames.")
 @click.option("--tcp", is_flag=True, help="Over TCP; with --baud through a gateway to such a line.")
 @click.option("--remembered", is_flag=True, help="Without the registers that the meaning of others depends on.")
 @base_option
 @click.option("--with", "state", multiple=True, metavar="NAME=VALUE", help="What a register holds (repeatable).")
-@click.option("--json", "as_json", is_flag=True, help="One JSON object.")
+@json_option
 def command(  # noqa: PLR0913 - one parameter an option
     *,
     map_name: str,
@@ -173,7 +173,7 @@ def _below(paths: Iterable[str], members: Sequence[str]) -> list[str]:
 def _cost(subject: PlannedModel, baud: int | None, form: str | None, framing: str, *, tcp: bool) -> Cost:
     protocol, serial = subject.protocol, subject.protocol.serial
     if form is not None and form not in FORMATS:
-        refuse(f"--format {form}: write data bits (7, 8), parity (N, E, O) and stop bits (1, 2), for example 8E1")
+        refuse(f"--line-format {form}: write data bits (7, 8), parity (N, E, O) and stop bits (1, 2), for example 8E1")
     _remark_unlisted("baud", baud, serial.bauds)
     _remark_unlisted("characters", form, serial.formats)
     if not tcp:

@@ -68,7 +68,7 @@ class Options(TypedDict):
 @click.option("--rtu", metavar="DEVICE", help=f"Serve RTU on a serial device; `{PTY}` makes a pseudo terminal.")
 @click.option("--framing", type=click.Choice(list(FRAMINGS)), default="tcp", help="Of TCP.", show_default=True)
 @click.option("--baud", type=click.IntRange(50, 4_000_000), metavar="N", help="Speed of the line; default: the map's.")
-@click.option("--format", "character", metavar="8N1", help="Character format of the line; default: the map's.")
+@click.option("--line-format", "character", metavar="8N1", help="Character format of the line; default: the map's.")
 @click.option("--paced", is_flag=True, help=f"With `--rtu {PTY}`: bytes take their time at the speed of the line.")
 @click.option("--latency", default="off", metavar="off|real|F", help="The manual's answer times, or F times them.")
 @click.option("--addressing", type=click.Choice(ADDRESSINGS), default="modbus", help="Count addresses from 0 or 1.")

@@ -67,7 +67,23 @@ _config = declared(
     ),
     click.option("--no-config", "config", flag_value=configuration.NONE, help="Read no configuration at all."),
 )
-json_option = click.option("--json", "as_json", is_flag=True, help="Print one JSON object for programs.")
+
+
+def _is_json(_context: click.Context, _option: click.Parameter, value: str | None) -> bool:
+    return value == "json"
+
+
+json_option = declared(
+    click.option(
+        "--format",
+        "as_json",
+        type=click.Choice(["text", "json"]),
+        default="text",
+        callback=_is_json,
+        help="What is printed: for people, or one JSON object for programs.",
+    ),
+    click.option("--json", "as_json", flag_value="json", callback=_is_json, help="The same as --format json."),
+)
 driver_options = declared(_package, _config, json_option)
 given_option = click.option(
     "--given",
