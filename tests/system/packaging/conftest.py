@@ -1,5 +1,6 @@
 """The three wheels, and environments that they are installed in."""
 
+import shutil
 import sys
 import sysconfig
 import venv
@@ -9,10 +10,14 @@ from pathlib import Path
 import pytest
 
 from .distributions import FOLDERS, ROOT, run
+from .repositories import PAGE, WHO, git
+from .steps import Service
 
 LIBRARIES = {"pymodbus", "serial", "yaml", "_yaml", "jinja2", "markupsafe", "jsonschema", "jsonschema_specifications"}
 LIBRARIES |= {"referencing", "rpds", "attr", "attrs", "click", "rich", "plotille", "pygments", "markdown_it", "mdurl"}
 LIBRARIES |= {"typing_extensions.py", "openpyxl", "et_xmlfile", "defusedxml", "platformdirs"}
+
+TOOLS = ("pre-commit", "check-jsonschema")
 
 
 @pytest.fixture(scope="session")
@@ -65,3 +70,37 @@ def user(wheel_folder: Path, tmp_path_factory: pytest.TempPathFactory) -> Path:
     venv.create(folder, with_pip=True, symlinks=True)
     run(folder / "bin/python", "-m", "pip", "install", "regscribe[test]", cwd=folder, PIP_FIND_LINKS=str(wheel_folder))
     return folder / "bin"
+
+
+@pytest.fixture(scope="session")
+def tools(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    """The bin folder of an environment with programs of others that read what we publish."""
+    folder = tmp_path_factory.mktemp("tools")
+    venv.create(folder, with_pip=True, symlinks=True)
+    run(folder / "bin/python", "-m", "pip", "install", *TOOLS, cwd=folder)
+    return folder / "bin"
+
+
+@pytest.fixture(scope="session")
+def published(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    """A repository with this tree as its only commit: what others would fetch."""
+    folder = tmp_path_factory.mktemp("published")
+    names = run("git", "ls-files", "--cached", "--others", "--exclude-standard", "-z", cwd=ROOT)
+    for name in filter(None, names.split("\0")):
+        if (ROOT / name).is_file():  # not one that was removed and not committed
+            (folder / name).parent.mkdir(parents=True, exist_ok=True)
+            shutil.copy2(ROOT / name, folder / name)
+    for command in (["init", "-q"], ["add", "."], ["commit", "-qm", "Publish"]):
+        git(folder, *command)
+    return folder
+
+
+@pytest.fixture
+def repository(user: Path, wheel_folder: Path, tmp_path: Path) -> Path:
+    """A repository made by the lines of the page, and checked out as a service does: its main branch is origin's."""
+    origin, folder = tmp_path / "origin", tmp_path / "repository"
+    origin.mkdir()
+    made = Service(origin, user, {**WHO, "PIP_FIND_LINKS": str(wheel_folder)}).run([{"run": PAGE["a new repository"]}])
+    assert made.failed == "", made.printed
+    git(tmp_path, "clone", "-q", str(origin), str(folder))
+    return folder

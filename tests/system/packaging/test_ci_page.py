@@ -8,35 +8,10 @@ import pytest
 import yaml
 
 from .distributions import ROOT, run
-from .steps import Ran, Service, blocks
+from .repositories import DRIVER, OVEN, PAGE, change, moved_register
+from .steps import Ran, Service
 
 pytestmark = pytest.mark.slow
-
-PAGE = blocks((ROOT / "docs" / "ci.md").read_text(encoding="utf-8"))
-OVEN = Path("maps/acme/oven.yaml")
-DRIVER = Path("generated/regscribe_devices/acme/oven.py")
-WHO = {f"GIT_{role}_{what}": "somebody@example.org" for role in ("AUTHOR", "COMMITTER") for what in ("NAME", "EMAIL")}
-
-
-def git(folder: Path, *arguments: str) -> None:
-    run("git", *arguments, cwd=folder, **WHO)
-
-
-@pytest.fixture
-def repository(user: Path, wheel_folder: Path, tmp_path: Path) -> Path:
-    """A repository made by the lines of the page, and checked out as a service does: its main branch is origin's."""
-    origin, folder = tmp_path / "origin", tmp_path / "repository"
-    origin.mkdir()
-    made = Service(origin, user, {**WHO, "PIP_FIND_LINKS": str(wheel_folder)}).run([{"run": PAGE["a new repository"]}])
-    assert made.failed == "", made.printed
-    git(tmp_path, "clone", "-q", str(origin), str(folder))
-    return folder
-
-
-def change(folder: Path, path: Path, old: str, new: str) -> None:
-    text = (folder / path).read_text(encoding="utf-8")
-    assert old in text
-    (folder / path).write_text(text.replace(old, new, 1), encoding="utf-8")
 
 
 def nothing(_: Path, __: Path) -> None:
@@ -53,11 +28,6 @@ def drift(folder: Path, _: Path) -> None:
 
 def forgotten_generate(folder: Path, _: Path) -> None:
     change(folder, OVEN, "sensor break", "sensor broken")
-
-
-def moved_register(folder: Path, user: Path) -> None:
-    change(folder, OVEN, "at: 30001, name: Process Value", "at: 30090, name: Process Value")
-    run(user / "regscribe", "generate", cwd=folder)
 
 
 Change = Callable[[Path, Path], None]
