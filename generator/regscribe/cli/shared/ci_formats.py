@@ -7,7 +7,6 @@ import hashlib
 import json
 from collections import Counter
 from collections.abc import Iterable, Sequence
-from itertools import groupby
 from pathlib import PurePath
 from xml.etree import ElementTree as ET
 
@@ -45,8 +44,8 @@ def as_gitlab(diagnostics: Iterable[Diagnostic]) -> str:
 def as_junit(diagnostics: Sequence[Diagnostic], files: Iterable[str] = ()) -> str:
     """Return a test suite for each file, with a test for each diagnostic; one that passes for a file without any."""
     by_file: dict[str, list[Diagnostic]] = {safe(file): [] for file in files}
-    for file, found in groupby(diagnostics, key=lambda one: one.span.file):
-        by_file.setdefault(safe(file), []).extend(found)
+    for one in diagnostics:
+        by_file.setdefault(safe(one.span.file), []).append(one)
     tests = sum(max(len(found), 1) for found in by_file.values())
     root = ET.Element("testsuites", _counts("regscribe", tests, len(diagnostics)))
     for file, found in by_file.items():
