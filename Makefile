@@ -6,7 +6,7 @@ INSTALLED := .venv/.installed
 
 # the tests that coverage is measured with: quick ones that go through all rooms
 COVERING := tests/conformance/test_cases.py tests/regscribe/cli/test_commands.py \
-	$(addprefix tests/regscribe/,source schema compose lower checks export importers breaking register_browser) \
+	$(addprefix tests/regscribe/,source schema compose lower checks export importers breaking register_browser language_server) \
 	$(addprefix tests/runtime/,wire registers planning operations driver)
 
 # what needs no programs by others; and of that what takes no more than a few seconds

@@ -63,12 +63,14 @@ ROOMS = {
     "files": {"model", "source", "schema", "visible"},
     "pipeline": {"model", "source", "schema", "compose", "lower", "checks"},
     "simulate": {"model", "reference", "source", "files", "map_files", "pipeline", WIRE},
+    "language_server": {"model", "reference", "source", "schema", "compose", "checks", "emit", "pipeline", "map_files"}
+    | {"visible"},
     "pytest_plugin": {"model", "simulate"},
     "testing": WHOLE,
     "tools": {"model", "source", "schema", "files", "visible", "emit", "pictures", "map_files", "pipeline"} | WHOLE,
     "cli": {"model", "reference", "source", "schema", "compose", "lower", "checks", "emit", "pictures", "evidence"}
     | {"plugins", "simulate", "pipeline", "files", "tools", "map_files", "visible", "draft", "losses"}
-    | {"planned_model", "breaking", "register_browser"}
+    | {"planned_model", "breaking", "register_browser", "language_server"}
     | WHOLE,
 }
 """Which other rooms a room may import, besides the vocabulary in `regscribe_runtime.values`."""
@@ -90,6 +92,8 @@ LIBRARIES = {
     "defusedxml": {"importers"},
     "serial": {f"{RUNTIME}.link.streams", "regscribe.simulate.line.serial_ports"},
     "hypothesis": {"testing"},
+    "pygls": {"language_server"},
+    "lsprotocol": {"language_server"},
     "markdown_it": {"register_browser"},
 }
 """Which rooms, or modules, may import a library."""

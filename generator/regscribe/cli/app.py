@@ -51,6 +51,7 @@ COMMANDS = {
     "clone": "Copy the settings of one device to others.",
     "program": "Setpoint programs of a controller: read, draw, check, write and run them.",
     "decode": "Say in names what captured frames mean.",
+    "lsp": "Serve an editor: findings while typing, completion, hover, renaming.",
     "completion": "Let a shell complete commands, devices and registers.",
 }
 """Name and help of each command, whose module `regscribe.cli.commands.<name>` is imported only to run it."""

@@ -1,0 +1,29 @@
+"""`regscribe lsp`: the language server for editors."""
+
+import importlib.util
+import logging
+import sys
+
+import click
+
+
+@click.command(
+    epilog="Example: regscribe lsp\n\n"
+    "An editor starts it: docs/editors.md says how. Exit code 0: the editor ended it, 2: wrong usage.",
+)
+@click.option("--stdio", is_flag=True, help="Talk over standard input and output, as without this option.")
+def command(*, stdio: bool) -> int:  # noqa: ARG001 - editors give it, and there is no other way
+    """Serve an editor: findings while typing, completion, hover, renaming and quick fixes for maps.
+
+    It speaks the language server protocol over standard input and output, until the editor ends it. What goes wrong is
+    told on standard error, which editors show as the log of the server.
+    """
+    if importlib.util.find_spec("pygls") is None:
+        message = "the language server needs pygls: pip install 'regscribe[lsp]'"
+        raise click.ClickException(message)
+    from regscribe.language_server.features import serve  # noqa: PLC0415 - 200 ms that only an editor needs
+    from regscribe.language_server.server import DEBOUNCE  # noqa: PLC0415 - as above
+
+    logging.basicConfig(stream=sys.stderr, level=logging.WARNING, format="regscribe lsp: %(levelname)s: %(message)s")
+    serve(DEBOUNCE)
+    return 0

@@ -1,0 +1,90 @@
+"""What is being written at a position of a text: a key or a value, and where in the map."""
+
+from dataclasses import dataclass
+
+from regscribe.language_server.tolerant import MARK, read
+from regscribe.source import Path, SourceNode, SourcePlace
+
+
+@dataclass(frozen=True, slots=True)
+class Cursor:
+    """A place where something may be written.
+
+    `path` leads to the mapping that gets a key (`at_key`), or to the value. `word` is what is written up to the cursor,
+    `place` all of the word, in the text. `own_line`: nothing but dashes stands before it on its line. `root` is the
+    text's tree, in which the word has a mark.
+    """
+
+    root: SourceNode
+    path: Path
+    at_key: bool
+    word: str
+    place: SourcePlace
+    own_line: bool
+    has_colon: bool
+
+    def value(self) -> dict[str, object]:
+        """The mapping that gets a key, without the key at the cursor."""
+        node: SourceNode | None = self.root
+        for step in self.path:
+            node = node.child(step) if node else None
+        members = (node.members if node else None) or {}
+        return {key: one.value for key, one in members.items() if MARK not in key}
+
+
+def cursor_at(text: str, line: int, column: int) -> Cursor | None:
+    """What is being written at a position, which counts from 0; None in comments and where nothing can stand."""
+    lines = text.replace(MARK, " ").split("\n")
+    if line >= len(lines):
+        return None
+    before, after = lines[line][:column], lines[line][column:]
+    lines[line] = f"{before}{MARK}{after}"
+    root = read("\n".join(lines))
+    found = _marked(root)
+    if found is None:
+        return None
+    path, at_key, place, written = found
+    end = place.end_column - (place.end_line == line)
+    word = written.partition(MARK)[0]
+    own_line = not before[: place.column].strip(" -") and place.line == line
+    whole = SourcePlace(place.line, place.column, place.end_line, max(end, place.column))
+    has_colon = at_key and lines[line][place.end_column :].lstrip().startswith(":")
+    return Cursor(root, path, at_key, word, whole, own_line, has_colon)
+
+
+def _marked(root: SourceNode) -> tuple[Path, bool, SourcePlace, str] | None:
+    """Where the mark is: the path, whether in a key, the place of the key or value, and its text."""
+    waiting: list[tuple[SourceNode, Path]] = [(root, ())]
+    while waiting:
+        node, path = waiting.pop()
+        for key, place in (node.keys or {}).items():
+            if MARK in key:
+                return path, True, place, key
+        if isinstance(node.value, str) and MARK in node.value:
+            return path, False, node.place, node.value
+        waiting += [(child, (*path, key)) for key, child in (node.members or {}).items()]
+        waiting += [(child, (*path, number)) for number, child in enumerate(node.elements or ())]
+    return None
+
+
+def path_at(root: SourceNode, line: int, column: int) -> tuple[Path, bool]:
+    """The path to what stands at a position, and whether that is a key: then the path ends with it."""
+    return _path_below(root, (), line, column)
+
+
+def _path_below(node: SourceNode, path: Path, line: int, column: int) -> tuple[Path, bool]:
+    for key, place in (node.keys or {}).items():
+        if covers(place, line, column):
+            return (*path, key), True
+    for key, child in (node.members or {}).items():
+        if covers(child.place, line, column):
+            return _path_below(child, (*path, key), line, column)
+    for number, child in enumerate(node.elements or ()):
+        if covers(child.place, line, column):
+            return _path_below(child, (*path, number), line, column)
+    return path, False
+
+
+def covers(place: SourcePlace, line: int, column: int) -> bool:
+    """Whether a position lies in a place, or just behind it."""
+    return (place.line, place.column) <= (line, column) <= (place.end_line, place.end_column)
