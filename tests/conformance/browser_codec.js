@@ -12,8 +12,9 @@
   /** Values of use of all registers, worked out as they are asked for. */
   class Held {
     constructor(map, model, words, known) {
-      Object.assign(this, { map, model, words, seen: new Map(), texts: { has: (path) => this.text(path) !== null, get: (path) => this.text(path) } })
-      this.known = { ...known, values: this, texts: this.texts }
+      Object.assign(this, { map, model, words, seen: new Map() })
+      const texts = { has: (path) => this.text(path) !== null, get: (path) => this.text(path) }
+      this.known = { ...known, values: this, texts }
       this.given = known.texts
     }
     reading(path) {

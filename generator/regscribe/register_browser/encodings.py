@@ -24,7 +24,7 @@ def encodings(maps: Iterable[RegisterMap]) -> Json:
 def table(name: str) -> Json:
     """Return letters by their bytes: `one`, 256 letters; `two`, 256 letters by a first byte in hexadecimal.
 
-    `spelled` are letters that several bytes spell, with those in hexadecimal that are sent.
+    `spelled` are letters that several bytes spell, each with those in hexadecimal that are sent.
     """
     one = [_letter(bytes([byte]), name) for byte in BYTES]
     two = {
@@ -37,7 +37,7 @@ def table(name: str) -> Json:
     return {
         "one": "".join(one),
         "two": {first: row for first, row in two.items() if row.strip(NONE)},
-        "spelled": {letter: letter.encode(name).hex() for letter in sorted(several)},
+        "spelled": [[letter, letter.encode(name).hex()] for letter in sorted(several)],
     }
 
 

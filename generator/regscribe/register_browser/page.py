@@ -21,6 +21,7 @@ CODEC = (
     "terms",
     "words",
     "octets",
+    "texts",
     "moments",
     "limits",
     "decode",
@@ -28,6 +29,7 @@ CODEC = (
     "describe",
     "computed",
     "needs",
+    "requests",
     "data",
     "public",
 )

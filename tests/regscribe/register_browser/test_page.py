@@ -3,12 +3,13 @@
 import re
 from dataclasses import replace
 from html.parser import HTMLParser
+from importlib.resources import files
 
 import pytest
 
 from regscribe.model import RegisterMap
 from regscribe.register_browser import page
-from regscribe.register_browser.page import digest, embedded
+from regscribe.register_browser.page import CODEC, digest, embedded
 
 from ...conformance.suite import diagnose, whole_map  # noqa: TID252 (test folders are no packages)
 
@@ -75,6 +76,11 @@ def test_the_page_names_no_other_place_than_itself(level: RegisterMap) -> None:
     text = page([level])
     assert not re.search(r"(?:src|href)=[\"']?(?!#)", text.replace("data:", ""))
     assert not re.search(r"\b(?:fetch|XMLHttpRequest|WebSocket|eval|innerHTML|outerHTML|document\.write)\b", text)
+
+
+def test_every_script_of_the_arithmetic_is_in_the_page() -> None:
+    folder = files("regscribe.register_browser").joinpath("assets/codec")
+    assert sorted(CODEC) == sorted(one.name.removesuffix(".js") for one in folder.iterdir())
 
 
 def test_the_same_maps_give_the_same_page(level: RegisterMap) -> None:

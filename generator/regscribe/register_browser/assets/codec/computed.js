@@ -37,7 +37,8 @@ function compute(computed, known) {
   try {
     const nothing = without(computed, known)
     if (nothing) return nothing
-    return [...referred([computed.term, computed.valid])].some((path) => known.coded.has(path)) ? NOT_DECODABLE : numberOf(computed, known)
+    const isCoded = [...referred([computed.term, computed.valid])].some((path) => known.coded.has(path))
+    return isCoded ? NOT_DECODABLE : numberOf(computed, known)
   } catch (error) {
     if (error instanceof UnknownValue) return { meaning: "unknown", subject: error.subject }
     if (error instanceof Refused) return NOT_DECODABLE
@@ -49,7 +50,8 @@ function numberOf(computed, known) {
   const value = amount(computed.term, known)
   if (!value) return NOT_DECODABLE
   const valid = choose(computed.valid, known)
-  return !valid || within(limitsNow(valid.then ?? {}, known), value) ? { meaning: "value", value } : { meaning: "out_of_range" }
+  const isWithin = !valid || within(limitsNow(valid.then ?? {}, known), value)
+  return isWithin ? { meaning: "value", value } : { meaning: "out_of_range" }
 }
 
 /** That a thing does not exist, or that nobody knows; null if it exists. */

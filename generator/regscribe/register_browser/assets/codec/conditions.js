@@ -8,6 +8,14 @@ class UnknownValue extends Error {
   }
 }
 
+/** What of the language the page cannot compute: `subject` names it. */
+class NotHere extends Error {
+  constructor(subject) {
+    super(`this page cannot compute ${subject}`)
+    this.subject = subject
+  }
+}
+
 /** A value that has no words: `reason` is the class of cause, the message has the numbers. */
 class Refused extends Error {
   constructor(reason, message) {

@@ -2,7 +2,8 @@
  * What words mean, step by step as the map language defines it.
  *
  * @typedef {object} Reading
- * @property {"value"|"unknown_member"|"saturated"|"fault"|"out_of_range"|"not_decodable"|"not_present"|"unknown"|"not_here"} meaning
+ * @property {string} meaning  value, unknown_member, saturated, fault, out_of_range, not_decodable, not_present, unknown
+ *   or not_here
  * @property {Rational|string} [value]  a number (an enum's code, the bits of a word), or a text
  * @property {string} [fault]  the id of the sentinel
  * @property {string} [subject]  with `unknown`: the register, `register.field` or given that must be known; with
@@ -106,7 +107,8 @@ function meaningOfNumber(register, way, number, known) {
     if (!named) return NOT_DECODABLE
     const sent = carried(way.type, times(line.stored(named), way.factor))
     if (sent && equal(sent, number)) {
-      return { meaning: "value", value: special.means === undefined ? named : stated(special.means), special: special.id }
+      const value = special.means === undefined ? named : stated(special.means)
+      return { meaning: "value", value, special: special.id }
     }
   }
   const value = line.value(over(number, way.factor))
@@ -146,8 +148,9 @@ function ofKind(register, value, known) {
     const text = versionText(register, value)
     return text === null ? NOT_DECODABLE : { meaning: "value", value: text }
   }
-  if (register.kind === "boolean") return equal(value, ZERO) || equal(value, ONE) ? { meaning: "value", value } : NOT_DECODABLE
-  if (isFractional(register)) return ieeeBits(value, FLOATS.float64) === null ? NOT_DECODABLE : { meaning: "value", value }
+  const found = { meaning: "value", value }
+  if (register.kind === "boolean") return equal(value, ZERO) || equal(value, ONE) ? found : NOT_DECODABLE
+  if (isFractional(register)) return ieeeBits(value, FLOATS.float64) === null ? NOT_DECODABLE : found
   if (!isWhole(value)) return NOT_DECODABLE
   return { meaning: isMember(register, value, known) ? "value" : "unknown_member", value }
 }
@@ -158,7 +161,8 @@ function versionText(register, number) {
   if (!isWhole(number) || number.n < 0n || number.n >= 10n ** BigInt(digits)) return null
   const text = String(number.n).padStart(digits, "0")
   const size = register.version_group || digits
-  return Array.from({ length: Math.ceil(digits / size) }, (_, place) => text.slice(place * size, (place + 1) * size)).join(".")
+  const groups = Array.from({ length: Math.ceil(digits / size) }, (_, place) => text.slice(place * size, (place + 1) * size))
+  return groups.join(".")
 }
 
 /** The number of use in the bits of a field, or the sentinel of the fault that they report. @param {bigint} word */
@@ -166,8 +170,10 @@ function partValue(field, word) {
   const size = 1n << widthOf(field)
   let number = (word >> lowOf(field)) & (size - 1n)
   if (field.signed && number >= size / 2n) number -= size
-  const isIn = ({ stored, high }) => stored !== "nan" && liesIn([{ low: stored, high: high ?? stored }], ratio(number), stated, compare)
-  return (field.sentinels ?? []).find(isIn) ?? plus(times(stated(field.multiply ?? 1), ratio(number)), stated(field.add ?? 0))
+  const stretch = ({ stored, high }) => [{ low: stored, high: high ?? stored }]
+  const isIn = (one) => one.stored !== "nan" && liesIn(stretch(one), ratio(number), stated, compare)
+  const fault = (field.sentinels ?? []).find(isIn)
+  return fault ?? plus(times(stated(field.multiply ?? 1), ratio(number)), stated(field.add ?? 0))
 }
 
 /** Whether a register (part, flag, member ..) exists as things stand. @returns {boolean|{subject: string}} */

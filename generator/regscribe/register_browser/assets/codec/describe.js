@@ -3,7 +3,8 @@
 /**
  * A reading in the words of people.
  * @returns {{text: string, unit: string, member?: object, special?: object, fault?: object,
- *   fields?: {field: object, text: string, set: boolean, bits: bigint, exists: boolean, valid: boolean, member?: object, fault?: object}[]}}
+ *   fields?: {field: object, text: string, set: boolean, bits: bigint, exists: boolean, valid: boolean,
+ *     member?: object, fault?: object}[]}}
  *   `text` is the value alone; `unit` the one that holds now; members, specials, sentinels and fields as data have them
  */
 function describe(register, reading, known) {
@@ -20,7 +21,10 @@ function describe(register, reading, known) {
   return found
 }
 
-const textOfReading = ({ value, meaning }) => (value === undefined ? meaning : typeof value === "string" ? value : show(value))
+function textOfReading({ value, meaning }) {
+  if (value === undefined) return meaning
+  return typeof value === "string" ? value : show(value)
+}
 
 function unitOf(register, known) {
   const found = told(() => choose(register.unit, known))
@@ -31,7 +35,8 @@ function describePart(field, word, known) {
   const bits = (word & maskOf(field)) >> lowOf(field)
   const exists = present(field, known) === true
   const part = partValue(field, word)
-  const found = { field, bits, set: bits > 0n, exists, valid: true, text: "n" in part ? show(part) : (part.label ?? part.id) }
+  const text = "n" in part ? show(part) : (part.label ?? part.id)
+  const found = { field, bits, set: bits > 0n, exists, valid: true, text }
   if (!("n" in part)) return { ...found, fault: part }
   found.valid = !field.valid || liesIn([{ low: field.valid[0], high: field.valid[1] }], part, stated, compare)
   const member = told(() => existingMembers(field, known).find((one) => equal(stated(one.code), part)))

@@ -72,7 +72,8 @@ function decimals(number, digits) {
   if (!number.n) return [ZERO]
   const above = number.n < 0n ? -number.n : number.n
   const exponent = leading(above, number.d) - digits + 1
-  const [over, under] = exponent < 0 ? [above * 10n ** BigInt(-exponent), number.d] : [above, number.d * 10n ** BigInt(exponent)]
+  const over = exponent < 0 ? above * 10n ** BigInt(-exponent) : above
+  const under = exponent < 0 ? number.d : number.d * 10n ** BigInt(exponent)
   const sign = number.n < 0n ? -1n : 1n
   const up = over % under ? over / under + 1n : over / under
   return [halfEven(over, under), up].map((found) => times(ratio(sign * found), power(10n, exponent)))

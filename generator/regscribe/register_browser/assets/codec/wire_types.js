@@ -37,7 +37,7 @@ function rowOf(name) {
   if (whole) return complement(BigInt(whole[2]), whole[1] !== "u")
   const fixed = FIXED.exec(name)
   if (fixed) return complement(fixed[3] ? BigInt(fixed[2]) + BigInt(fixed[3]) : BigInt(fixed[2]) + 1n, fixed[1] !== "u")
-  throw new Error(`this page does not know the type ${name}`)
+  throw new NotHere(`the type ${name}`)
 }
 
 function complement(bits, signed) {
