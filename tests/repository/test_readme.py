@@ -21,6 +21,10 @@ from regscribe_devices.athena.series_c import Athena16C
 ROOT = Path(__file__).parents[2]
 README = (ROOT / "README.md").read_text(encoding="utf-8")
 SERIES_C, SERIES_100, X5000, BUS, TEST = re.findall(r"```python\n(.*?)```", README, re.DOTALL)
+(RUNTIME,), (DEVICES,) = (
+    re.findall(r"```python\n(.*?)```", (ROOT / folder / "README.md").read_text(encoding="utf-8"), re.DOTALL)
+    for folder in ("generator/runtime", "generated")
+)
 COMMANDS = re.findall(r"^regscribe [^#\n]+", README, re.MULTILINE)
 
 
@@ -30,6 +34,8 @@ COMMANDS = re.findall(r"^regscribe [^#\n]+", README, re.MULTILINE)
         (SERIES_C, "athena/series-c", "16C", 'rtu("/dev/ttyUSB0"', {}),
         (SERIES_100, "fdc/series-100", "BTC-9100", 'tcp("10.0.0.7"', {"linear_inputs": {16, 17}}),
         (X5000, "athena/platinum-x5000", "X5000", 'tcp("10.0.0.8"', {}),
+        (RUNTIME, "athena/series-c", "16C", 'rtu("/dev/ttyUSB0"', {}),
+        (DEVICES, "fdc/series-100", "C21", 'tcp("10.0.0.7"', {"linear_inputs": {16, 17}}),
     ],
 )
 def test_the_python_of_the_readme_runs(

@@ -17,7 +17,7 @@ LIBRARIES = {"pymodbus", "serial", "yaml", "_yaml", "jinja2", "markupsafe", "jso
 LIBRARIES |= {"referencing", "rpds", "attr", "attrs", "click", "rich", "plotille", "pygments", "markdown_it", "mdurl"}
 LIBRARIES |= {"typing_extensions.py", "openpyxl", "et_xmlfile", "defusedxml", "platformdirs"}
 
-TOOLS = ("pre-commit", "check-jsonschema")
+TOOLS = ("pre-commit", "check-jsonschema", "twine", "uv", "pipx", "cffconvert")
 
 
 @pytest.fixture(scope="session")
@@ -27,6 +27,15 @@ def wheel_folder(tmp_path_factory: pytest.TempPathFactory) -> Path:
     for folder in FOLDERS.values():
         run(sys.executable, "-m", "hatchling", "build", "-t", "wheel", "-d", out, cwd=ROOT / folder)
     return out
+
+
+@pytest.fixture(scope="session")
+def sources(tmp_path_factory: pytest.TempPathFactory) -> list[Path]:
+    """The source distributions."""
+    out = tmp_path_factory.mktemp("sources")
+    for folder in FOLDERS.values():
+        run(sys.executable, "-m", "hatchling", "build", "-t", "sdist", "-d", out, cwd=ROOT / folder)
+    return sorted(out.glob("*.tar.gz"))
 
 
 @pytest.fixture(scope="session")

@@ -61,8 +61,16 @@ def test_the_three_are_released_together() -> None:
 
 def test_the_runtime_imports_alone(environment: Callable[[set[str], set[str]], Path], tmp_path: Path) -> None:
     alone = environment({"regscribe_runtime"}, {"pymodbus", "serial"})
-    script = "import regscribe_runtime; print(regscribe_runtime.__file__)"
-    assert Path(run(alone / "python", "-c", script, cwd=tmp_path)).is_relative_to(alone.parent)
+    script = (
+        "import importlib, pkgutil, sys\n"
+        "import regscribe_runtime as package\n"
+        "names = [one.name for one in pkgutil.walk_packages(package.__path__, 'regscribe_runtime.')]\n"
+        "[importlib.import_module(name) for name in names]\n"
+        "print(package.__file__, 'regscribe' in sys.modules, 'regscribe_devices' in sys.modules, len(names) > 50)"
+    )
+    place, *rest = run(alone / "python", "-c", script, cwd=tmp_path).split()
+    assert Path(place).is_relative_to(alone.parent)
+    assert rest == ["False", "False", "True"]
 
 
 def test_drivers_need_the_runtime_alone(environment: Callable[[set[str], set[str]], Path], tmp_path: Path) -> None:
