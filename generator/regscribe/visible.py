@@ -37,7 +37,10 @@ def cell(text: str) -> str:
     return f"'{plain}" if FORMULA.match(text) else plain
 
 
-def json_text(what: object, *, indent: int | None = None) -> str:
-    """JSON of plain values, with non-ASCII characters as they are and invisible ones as Unicode escapes."""
-    text = json.dumps(what, ensure_ascii=False, indent=indent)
+def json_text(what: object, *, indent: int | None = None, compact: bool = False) -> str:
+    """JSON of plain values, with non-ASCII characters as they are and invisible ones as Unicode escapes.
+
+    With `compact`, no blank stands between values.
+    """
+    text = json.dumps(what, ensure_ascii=False, indent=indent, separators=(",", ":") if compact else None)
     return INVISIBLE.sub(lambda found: found[0] if found[0] == "\n" else f"\\u{ord(found[0]):04x}", text)

@@ -50,7 +50,7 @@ def page(maps: Sequence[RegisterMap]) -> str:
         heading=escape(safe(heading)),
         policy=escape(POLICY.format(script=digest(script), style=digest(style))),
         style=style,
-        data=embedded(json_text(document(maps))),
+        data=embedded(json_text(document(maps), compact=True)),
         script=script,
     )
 
