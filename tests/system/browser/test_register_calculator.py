@@ -1,5 +1,7 @@
 """The calculator of the register browser, held to the worked examples of the manual of Series C and to IEEE 754."""
 
+from pathlib import Path
+
 import pytest
 from playwright.sync_api import Page, expect
 
@@ -64,7 +66,7 @@ def test_a_value_becomes_words_a_line_of_python_and_a_request(setpoint: Page) ->
         "Python, read": 'controller.setpoint_ram.read(view="x10")',
         "Python, write": 'controller.setpoint_ram.write(150.5, view="x10")',
         "Command line, read": "regscribe read DEVICE setpoint_ram",
-        "Command line, write": "regscribe write DEVICE setpoint_ram 150.5 --view x10",
+        "Command line, write": "regscribe write --view x10 DEVICE setpoint_ram 150.5",
         "RTU request, read": "01 03 03 EA 00 01 A5 BA",
         "RTU request, write": "01 06 03 EA 05 E1 6B 62",
     }
@@ -118,6 +120,18 @@ def test_what_is_said_of_a_device_stays_for_its_other_registers(setpoint: Page, 
     known(setpoint, "input_type").select_option("14")
     setpoint.goto(f"{address}#register-process_value")
     assert known(setpoint, "input_type").input_value() == "14"
+
+
+def test_what_a_manual_leaves_open_is_asked(open_page: Opener, tmp_path: Path) -> None:
+    page = open_page(f"{written(tmp_path, map_of('fdc/series-100'))}#register-sp1")
+    assert reading(page) == "? cannot be told: linear_inputs is not known"
+    known(page, "inpt").fill("5")
+    known(page, "dp").fill("2")
+    known(page, "linear_inputs").press_sequentially("1, 4..6")
+    write_words(page, "4E20")
+    assert reading(page) == "0.01"  # 20000/100 - 199.99, for a linear input with two decimals
+    known(page, "inpt").fill("7")
+    assert reading(page) == "0.1"  # 20000/10 - 1999.9, for the others
 
 
 def test_an_address_is_copied(setpoint: Page) -> None:

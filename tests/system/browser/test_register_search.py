@@ -68,6 +68,15 @@ def test_all_maps_are_searched_at_once(open_page: Opener, tmp_path: Path) -> Non
     assert page.locator("#details .summary").inner_text().endswith("Omega CN8200 Series")
 
 
+def test_spaces_are_found_and_told_apart(open_page: Opener, tmp_path: Path) -> None:
+    page = open_page(written(tmp_path, map_of("athena/platinum-x5000")))
+    coils = search(page, "coil")
+    assert len(coils) > 1
+    assert page.locator("#results .place").first.inner_text().startswith("coil ")
+    assert search(page, "no such thing") == []
+    expect(page.locator("#count")).to_contain_text("Nothing is called or stands at “no such thing”")
+
+
 def test_filters_count_and_combine(series_c: Page) -> None:
     readable = series_c.get_by_label("read only", exact=False)
     total = int(series_c.locator("label", has=readable).locator(".number").inner_text())

@@ -55,4 +55,7 @@ function notationReadings(text, notations) {
 const printedAddresses = (notations, space, address) =>
   notations
     .filter((one) => (one.space ?? "holding") === space)
-    .map(({ name, offset, base = 10 }) => [name, base === 16 ? `0x${(address + offset).toString(16).toUpperCase().padStart(4, "0")}` : String(address + offset)])
+    .map(({ name, offset, base = 10 }) => [
+      name,
+      base === 16 ? `0x${(address + offset).toString(16).toUpperCase().padStart(4, "0")}` : String(address + offset),
+    ])

@@ -4,51 +4,63 @@
 
 /** What can be copied of a calculation. */
 function copyLines(state) {
-  const { item, register, view, words, reading, known, model, sent } = state
+  const { item, register, view, words, reading, known, sent } = state
   const unit = item.map.default_unit ?? 1
-  const isWritable = register.access !== "r" && !sent?.refused
+  const isMeant = reading.meaning === "value" || reading.meaning === "unknown_member"
+  const reads = register.access !== "w"
+  const writes = register.access !== "r" && !sent?.refused && isMeant
   const lines = [
     ["Words", hexWords(words)],
-    ...(register.access === "w" ? [] : [["Python, read", pythonRead(register, view)]]),
-    ...(isWritable ? [["Python, write", pythonWrite(register, view, words, reading, known)]] : []),
-    ...(register.access === "w" ? [] : [["Command line, read", `regscribe read DEVICE ${register.path}`]]),
-    ...(isWritable && reading.value !== undefined ? [["Command line, write", shellWrite(register, view, reading, known)]] : []),
-    ...(register.access === "w" ? [] : [frameLine("RTU request, read", frame(item.map, register, view, unit))]),
-    ...(isWritable ? [frameLine("RTU request, write", frame(item.map, register, view, unit, words))] : []),
-  ]
-  return element("dl", { class: "lines" }, lines.map(([label, text, isPlain]) => [
-    element("dt", {}, label),
-    element("dd", {}, isPlain ? text : [element("code", {}, text), " ", copyButton(text, label)])]))
+    reads && ["Python, read", pythonRead(register, view)],
+    writes && ["Python, write", pythonWrite(register, view, words, reading, known)],
+    reads && ["Command line, read", `regscribe read DEVICE ${shellWord(register.path)}`],
+    writes && ["Command line, write", shellWrite(register, view, reading, known)],
+    reads && frameLine("RTU request, read", frame(item.map, register, view, unit)),
+    writes && frameLine("RTU request, write", frame(item.map, register, view, unit, words)),
+  ].filter(Boolean)
+  return element(
+    "dl",
+    { class: "lines" },
+    lines.map(([label, text, isPlain]) => [
+      element("dt", {}, label),
+      element("dd", {}, isPlain ? text : [element("code", {}, text), " ", copyButton(text, label)]),
+    ]),
+  )
 }
 
 const frameLine = (label, found) =>
-  found.refused ? [label, found.refused, true] : [label, found.frame.map((byte) => byte.toString(16).toUpperCase().padStart(2, "0")).join(" ")]
+  found.refused
+    ? [label, found.refused, true]
+    : [label, found.frame.map((byte) => byte.toString(16).toUpperCase().padStart(2, "0")).join(" ")]
 
 /** The expression of a register in Python: an element of an array is reached by its index. */
 const pythonPath = (register) => `controller.${register.path}`
 
-const viewArgument = (register, view) => (register.views.length > 1 && !isPreferred(register, view) ? `view=${quoted(view.name)}` : "")
+const viewArgument = (register, view) =>
+  register.views.length > 1 && !isPreferred(register, view) ? `view=${quoted(view.name)}` : ""
 
 const isPreferred = (register, view) => view === (register.views.find((one) => one.preferred) ?? register.views[0])
 
 const pythonRead = (register, view) => `${pythonPath(register)}.read(${viewArgument(register, view)})`
 
+/** A number is written as such, with the consent that a dangerous write needs; everything else by its words. */
 function pythonWrite(register, view, words, reading, known) {
-  const options = viewArgument(register, view)
-  const behind = options && `, ${options}`
-  const isNumber = (register.kind === "number" || register.kind === "integer" || register.kind === "raw") && reading.meaning === "value"
   const text = textOf(register, reading, known)
-  if (isNumber && /^-?[0-9.]+$/.test(text) && !reading.special) return `${pythonPath(register)}.write(${text}${behind})`
-  return `${pythonPath(register)}.write_raw((${words.join(", ")},)${behind})`
+  const isNumber = ["number", "integer", "raw"].includes(register.kind) && /^-?[0-9.]+$/.test(text) && !reading.special
+  const written = isNumber ? `write(${text}` : `write_raw((${words.join(", ")},)`
+  const options = [viewArgument(register, view), isNumber && register.danger ? "confirm=True" : ""].filter(Boolean)
+  return `${pythonPath(register)}.${[written, ...options].join(", ")})`
 }
 
 function shellWrite(register, view, reading, known) {
   const { member, text } = describe(register, reading, known)
+  const isOther = register.views.length > 1 && !isPreferred(register, view)
+  const options = `${isOther ? `--view ${shellWord(view.name)} ` : ""}${register.danger ? "--confirm " : ""}`
   const value = member ? member.id : text
-  const options = register.views.length > 1 && !isPreferred(register, view) ? ` --view ${view.name}` : ""
-  return `regscribe write DEVICE ${register.path} ${shellWord(value)}${options}`
+  return `regscribe write ${options}${value.startsWith("-") ? "-- " : ""}DEVICE ${shellWord(register.path)} ${shellWord(value)}`
 }
 
-const shellWord = (text) => (/^[\w.+-]+$/.test(text) && !text.startsWith("-") ? text : text.startsWith("-") ? `-- ${text}` : `'${text.replaceAll("'", `'"'"'`)}'`)
+/** A text as one word of a shell. */
+const shellWord = (text) => (/^[\w.+-]+$/.test(text) ? text : `'${text.replaceAll("'", `'"'"'`)}'`)
 
 const quoted = (text) => JSON.stringify(text)

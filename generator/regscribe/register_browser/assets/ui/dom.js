@@ -8,7 +8,8 @@ const UNSEEN = /[\p{Cc}\u00ad\u061c\u200b-\u200f\u2028-\u202e\u2060-\u206f\ufeff
 /** A text with such characters as `U+202E`. */
 const visibleText = (text) =>
   String(text).replace(UNSEEN, (found) =>
-    found === "\n" ? found : `U+${found.codePointAt(0).toString(16).toUpperCase().padStart(4, "0")}`)
+    found === "\n" ? found : `U+${found.codePointAt(0).toString(16).toUpperCase().padStart(4, "0")}`,
+  )
 
 /**
  * An element.
@@ -20,9 +21,15 @@ function element(tag, attributes = {}, ...children) {
   const made = document.createElement(tag)
   for (const [name, value] of Object.entries(attributes)) {
     if (name === "on") for (const [event, listener] of Object.entries(value)) made.addEventListener(event, listener)
-    else if (value !== null && value !== false && value !== undefined) made.setAttribute(name, value === true ? "" : value)
+    else if (value !== null && value !== false && value !== undefined)
+      made.setAttribute(name, value === true ? "" : value)
   }
-  made.append(...children.flat(Infinity).filter((child) => child !== null && child !== undefined).map(nodeOf))
+  made.append(
+    ...children
+      .flat(Infinity)
+      .filter((child) => child !== null && child !== undefined)
+      .map(nodeOf),
+  )
   return made
 }
 
@@ -34,12 +41,16 @@ const button = (label, action, attributes = {}) =>
 
 /** A button that copies a text and says so. */
 function copyButton(text, what = text) {
-  const made = button("", async () => {
-    await copyText(text)
-    made.classList.add("done")
-    announce(`Copied ${visibleText(text)}`)
-    setTimeout(() => made.classList.remove("done"), 1500)
-  }, { class: "copy", "aria-label": visibleText(`Copy ${what}`), title: visibleText(`Copy ${what}`) })
+  const made = button(
+    "",
+    async () => {
+      await copyText(text)
+      made.classList.add("done")
+      announce(`Copied ${visibleText(text)}`)
+      setTimeout(() => made.classList.remove("done"), 1500)
+    },
+    { class: "copy", "aria-label": visibleText(`Copy ${what}`), title: visibleText(`Copy ${what}`) },
+  )
   return made
 }
 

@@ -29,4 +29,5 @@ function writeHash({ query = "", chosen = {}, open: anchor = "", map = "", eleme
 }
 
 /** The hash that opens an anchor of a map and leaves search and filters as they are. */
-const hashOfAnchor = (map, anchor, path = "") => writeHash({ ...browser.state, open: anchor, map: map.id, element: path })
+const hashOfAnchor = (map, anchor, path = "") =>
+  writeHash({ ...browser.state, open: anchor, map: map.id, element: path })

@@ -29,7 +29,11 @@ const letteredPath = (path) => {
 }
 
 /** The words of a text, in lower case. */
-const wordsOf = (text) => text.toLowerCase().split(/[^\p{L}\p{N}.%°]+/u).filter(Boolean)
+const wordsOf = (text) =>
+  text
+    .toLowerCase()
+    .split(/[^\p{L}\p{N}.%°]+/u)
+    .filter(Boolean)
 
 /** @returns {Item[]} */
 function indexOf(maps) {
@@ -41,26 +45,52 @@ function indexOf(maps) {
 
 /** The versions of an entry that differ. */
 const variantsOf = (map, entry) =>
-  (entry.variants ?? [{ models: modelsOf(map, entry) }]).map((one) => ({ ...versionOf(map, entry, one.models[0]), models: one.models }))
+  (entry.variants ?? [{ models: modelsOf(map, entry) }]).map((one) => ({
+    ...versionOf(map, entry, one.models[0]),
+    models: one.models,
+  }))
 
 function registerItem(map, entry) {
   const variants = variantsOf(map, entry)
   const first = variants[0]
   return {
-    map, entry, anchor: entry.anchor, name: nameOf(first), path: letteredPath(entry.path),
-    texts: searchedTexts(map, variants), places: variants.flatMap(placesOf), facets: facetsOf(map, entry, variants),
+    map,
+    entry,
+    anchor: entry.anchor,
+    name: nameOf(first),
+    path: letteredPath(entry.path),
+    texts: searchedTexts(map, variants),
+    places: variants.flatMap(placesOf),
+    facets: facetsOf(map, entry, variants),
   }
 }
 
 function commandItem(map, entry) {
   const variants = variantsOf(map, entry)
-  const texts = variants.flatMap((one) => [["name", one.name], ["id", entry.id], ["section", one.section], ["description", one.description]])
+  const texts = variants.flatMap((one) => [
+    ["name", one.name],
+    ["id", entry.id],
+    ["section", one.section],
+    ["description", one.description],
+  ])
   return {
-    map, entry, anchor: entry.anchor, name: variants[0].name, path: `commands.${entry.id}`, command: true,
+    map,
+    entry,
+    anchor: entry.anchor,
+    name: variants[0].name,
+    path: `commands.${entry.id}`,
+    command: true,
     texts: preparedTexts(texts),
-    places: variants.flatMap((one) => (one.steps ?? []).map((step) => ({
-      view: "", space: step.space ?? "holding", address: step.address, offsets: [...(step.words ?? [0])].map((_, place) => place), path: entry.id, alias: false,
-    }))),
+    places: variants.flatMap((one) =>
+      (one.steps ?? []).map((step) => ({
+        view: "",
+        space: step.space ?? "holding",
+        address: step.address,
+        offsets: [...(step.words ?? [0])].map((_, place) => place),
+        path: entry.id,
+        alias: false,
+      })),
+    ),
     facets: { ...commonFacets(map, entry), kind: ["command"] },
   }
 }
@@ -81,10 +111,22 @@ const groupName = (map, id) => map.groups?.find((one) => one.id === id)?.name ??
 
 function searchedTexts(map, variants) {
   const texts = variants.flatMap((one) => [
-    ["name", one.name], ["id", one.path], ["symbol", one.symbol], ["symbol", one.printed], ["section", one.section],
-    ["group", groupName(map, one.group)], ["description", one.description],
-    ...membersOf(one).flatMap((member) => [["value", member.label], ["value", member.id]]),
-    ...(one.fields ?? []).flatMap((field) => [["bit", field.label], ["bit", field.id]]),
+    ["name", one.name],
+    ["id", one.path],
+    ["symbol", one.symbol],
+    ["symbol", one.printed],
+    ["section", one.section],
+    ["group", groupName(map, one.group)],
+    ...(one.views ?? []).map((view) => ["space", view.space ?? "holding"]),
+    ["description", one.description],
+    ...membersOf(one).flatMap((member) => [
+      ["value", member.label],
+      ["value", member.id],
+    ]),
+    ...(one.fields ?? []).flatMap((field) => [
+      ["bit", field.label],
+      ["bit", field.id],
+    ]),
     ...(one.specials ?? []).map((special) => ["value", special.label]),
     ...(one.sentinels ?? []).map((sentinel) => ["value", sentinel.label]),
   ])
@@ -94,12 +136,16 @@ function searchedTexts(map, variants) {
 /** The members of all enums of a version: those of its cases, and of its fields. */
 function membersOf(version) {
   const enums = [version.enum, ...(version.fields ?? []).map((field) => field.enum)].filter(Boolean)
-  return enums.flatMap((one) => [...(one.members ?? []), ...(one.cases ?? []).flatMap((each) => each.then?.members ?? [])])
+  return enums.flatMap((one) => [
+    ...(one.members ?? []),
+    ...(one.cases ?? []).flatMap((each) => each.then?.members ?? []),
+  ])
 }
 
 function preparedTexts(pairs) {
   const found = new Map()
-  for (const [kind, text] of pairs) if (text) found.set(`${kind} ${text}`, { kind, text, lower: text.toLowerCase(), words: wordsOf(text) })
+  for (const [kind, text] of pairs)
+    if (text) found.set(`${kind} ${text}`, { kind, text, lower: text.toLowerCase(), words: wordsOf(text) })
   return [...found.values()]
 }
 
@@ -109,9 +155,12 @@ function placesOf(version) {
   const found = []
   const count = elements?.index.length ?? 1
   for (let number = 0; number < count; number += 1) {
-    const now = (place, usual) => (elements?.vary[place] ? changed(elements.vary[place], elements.index[number], number) : usual)
+    const now = (place, usual) =>
+      elements?.vary[place] ? changed(elements.vary[place], elements.index[number], number) : usual
     const element = now("path", path)
-    views.forEach((view, place) => found.push(placeOf(view, now(`views/${place}/address`, view.address), element, false)))
+    views.forEach((view, place) =>
+      found.push(placeOf(view, now(`views/${place}/address`, view.address), element, false)),
+    )
     aliases.forEach((alias, place) => found.push(placeOf(views[0], now(`aliases/${place}`, alias), element, true)))
   }
   return found

@@ -2,7 +2,7 @@
  * The list of what was found.
  */
 
-const MOST_ROWS = 200
+const MOST_ROWS = 100
 const LONG_WHY = 3
 
 /** A row of the list: a link that opens the register. */
@@ -11,42 +11,74 @@ function shownRow({ item, why, path }) {
   const isOpen = browser.open?.item === item
   const first = item.places[0]
   const models = entry.models ? [element("span", { class: "models" }, entry.models.join(", "))] : []
-  return element("li", {},
-    element("a", { href: hashOfAnchor(map, anchor, path), class: "row", "aria-current": isOpen ? "true" : null },
+  return element(
+    "li",
+    {},
+    element(
+      "a",
+      { href: hashOfAnchor(map, anchor, path), class: "row", "aria-current": isOpen ? "true" : null },
       element("span", { class: "place" }, first ? placeSpan(first, item) : ""),
       element("span", { class: "name" }, item.name),
       element("code", { class: "path" }, item.path),
-      element("span", { class: "notes" },
+      element(
+        "span",
+        { class: "notes" },
         ACCESS_SHORT[entry.access] ? element("span", { class: "access" }, ACCESS_SHORT[entry.access]) : null,
         item.facets.unit?.length ? element("span", { class: "unit" }, item.facets.unit.join(" / ")) : null,
-        models, browser.maps.length > 1 ? element("span", { class: "map" }, map.title) : null),
-      why.length ? element("span", { class: "why" }, whyText(why)) : null))
+        models,
+        browser.maps.length > 1 ? element("span", { class: "map" }, map.title) : null,
+      ),
+      why.length ? element("span", { class: "why" }, whyText(why)) : null,
+    ),
+  )
 }
 
 const ACCESS_SHORT = { r: "R", rw: "R/W", w: "W" }
 const SPACE_SHORT = { input: "input ", coil: "coil ", discrete: "discrete ", holding: "" }
 
-const placeSpan = (place, item) => `${SPACE_SHORT[place.space] ?? `${place.space} `}${place.address}${item.entry.elements ? " …" : ""}`
+const placeSpan = (place, item) =>
+  `${SPACE_SHORT[place.space] ?? `${place.space} `}${place.address}${item.entry.elements ? " …" : ""}`
 
-const whyText = (why) => (why.length > LONG_WHY ? [...why.slice(0, LONG_WHY), `${why.length - LONG_WHY} more`] : why).join("; ")
+const whyText = (why) =>
+  (why.length > LONG_WHY ? [...why.slice(0, LONG_WHY), `${why.length - LONG_WHY} more`] : why).join("; ")
 
 /** Show what was found, the first rows of many. */
 function showResults(found) {
   const list = document.getElementById("results")
   const isMore = browser.most < found.length
   list.replaceChildren(...found.slice(0, browser.most).map(shownRow))
-  document.getElementById("more").replaceChildren(...(isMore ? [button(`Show all ${found.length}`, () => { browser.most = Infinity; render() })] : []))
+  document.getElementById("more").replaceChildren(
+    ...(isMore
+      ? [
+          button(`Show all ${found.length}`, () => {
+            browser.most = Infinity
+            render()
+          }),
+        ]
+      : []),
+  )
 }
 
 /** Chips of what an address can mean. */
 function showReadings(readings) {
-  document.getElementById("readings").replaceChildren(
-    ...readings.map(({ text, count }) => element("li", { class: count ? "chip" : "chip none" }, `${text}: `, count ? `${count} ${count === 1 ? "register" : "registers"}` : "nothing there")))
+  document
+    .getElementById("readings")
+    .replaceChildren(
+      ...readings.map(({ text, count }) =>
+        element(
+          "li",
+          { class: count ? "chip" : "chip none" },
+          `${text}: `,
+          count ? `${count} ${count === 1 ? "register" : "registers"}` : "nothing there",
+        ),
+      ),
+    )
 }
 
 /** Arrow keys move between search and rows. */
 function moveFocus(event) {
-  if (!["ArrowDown", "ArrowUp", "Home", "End"].includes(event.key) || event.altKey || event.ctrlKey || event.metaKey) return
+  if (!["ArrowDown", "ArrowUp", "Home", "End"].includes(event.key) || event.altKey || event.ctrlKey || event.metaKey)
+    return
   const rows = [...document.querySelectorAll("#results .row")]
   const at = rows.indexOf(document.activeElement)
   const isSearch = document.activeElement?.id === "search"

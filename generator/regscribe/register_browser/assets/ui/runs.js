@@ -15,17 +15,34 @@ function shownRun(run, map) {
 /** A table that is as wide as it needs, in a frame that scrolls. */
 function shownTable(table, map) {
   const heads = table.headers.map((head) => element("th", { scope: "col" }, shownRuns(head, map)))
-  const rows = table.rows.map((row) => element("tr", {}, row.map((cell) => element("td", {}, shownRuns(cell, map)))))
+  const rows = table.rows.map((row) =>
+    element(
+      "tr",
+      {},
+      row.map((cell) => element("td", {}, shownRuns(cell, map))),
+    ),
+  )
   const body = [element("thead", {}, element("tr", {}, heads)), element("tbody", {}, rows)]
   const title = plainText(table.title)
-  return element("section", { class: "table" },
+  return element(
+    "section",
+    { class: "table" },
     title ? element("h3", {}, shownRuns(table.title, map)) : null,
-    element("div", { class: "scrolls", tabindex: "0", role: "region", "aria-label": visibleText(title || "Table") }, element("table", {}, body)))
+    element(
+      "div",
+      { class: "scrolls", tabindex: "0", role: "region", "aria-label": visibleText(title || "Table") },
+      element("table", {}, body),
+    ),
+  )
 }
 
 /** Pairs of label and value. */
 const shownFacts = (rows, map) =>
-  element("dl", {}, rows.map(([label, value]) => [element("dt", {}, shownRuns(label, map)), element("dd", {}, shownRuns(value, map))]))
+  element(
+    "dl",
+    {},
+    rows.map(([label, value]) => [element("dt", {}, shownRuns(label, map)), element("dd", {}, shownRuns(value, map))]),
+  )
 
 /** The text of runs alone. */
-const plainText = (runs) => (runs ?? []).map((run) => (typeof run === "string" ? run : run.text ?? "")).join("")
+const plainText = (runs) => (runs ?? []).map((run) => (typeof run === "string" ? run : (run.text ?? ""))).join("")

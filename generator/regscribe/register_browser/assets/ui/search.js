@@ -2,7 +2,7 @@
  * Search: each word of a query must be found; a word may be an address in any notation.
  */
 
-const WEIGHTS = { name: 60, id: 55, symbol: 65, section: 40, group: 15, value: 25, bit: 25, description: 5 }
+const WEIGHTS = { name: 60, id: 55, symbol: 65, section: 40, group: 15, value: 25, bit: 25, space: 8, description: 5 }
 const WHOLE = 30
 const EXACT_ADDRESS = 200
 const FEWEST_DIGITS = 2
@@ -34,12 +34,14 @@ function search(query) {
     const places = addressHits(token, readings)
     found = found.map((hit) => joined(hit, places.get(hit.item) ?? textHit(hit.item, token))).filter(Boolean)
   }
-  if (tokens.length > 1) for (const hit of found) if (hit.item.name.toLowerCase().startsWith(query.toLowerCase().trim())) hit.rank += WHOLE
+  if (tokens.length > 1)
+    for (const hit of found) if (hit.item.name.toLowerCase().startsWith(query.toLowerCase().trim())) hit.rank += WHOLE
   if (tokens.length) found.sort((a, b) => b.rank - a.rank)
   return { items: found, readings }
 }
 
-const joined = (hit, more) => more && { item: hit.item, rank: hit.rank + more.rank, why: [...hit.why, ...more.why], path: more.path ?? hit.path }
+const joined = (hit, more) =>
+  more && { item: hit.item, rank: hit.rank + more.rank, why: [...hit.why, ...more.why], path: more.path ?? hit.path }
 
 /** The items at the addresses that a token can mean; `readings` gets each meaning. */
 function addressHits(token, readings) {
@@ -48,7 +50,11 @@ function addressHits(token, readings) {
     const hits = (browser.book.get(reading.address) ?? []).filter((hit) => fits(hit, reading))
     readings.push({ text: readingText(reading), count: new Set(hits.map((hit) => hit.item)).size })
     for (const hit of hits) {
-      const known = found.get(hit.item) ?? { rank: EXACT_ADDRESS - hit.word, why: [], path: hit.item.entry.elements ? hit.place.path : undefined }
+      const known = found.get(hit.item) ?? {
+        rank: EXACT_ADDRESS - hit.word,
+        why: [],
+        path: hit.item.entry.elements ? hit.place.path : undefined,
+      }
       const why = placeText(hit)
       if (!known.why.includes(why)) known.why.push(why)
       found.set(hit.item, known)
@@ -62,9 +68,14 @@ const fits = ({ item, place }, { space, map }) => (!space || place.space === spa
 /** All meanings: those of every manual, and those that only the notation of one map gives. */
 function meaningsOf(token) {
   const found = addressReadings(token)
-  const isKnown = (one) => found.some((other) => other.address === one.address && (!other.space || other.space === one.space) && !other.map)
+  const isKnown = (one) =>
+    found.some((other) => other.address === one.address && (!other.space || other.space === one.space) && !other.map)
   for (const map of browser.maps) {
-    found.push(...notationReadings(token, map.notations ?? []).filter((one) => !isKnown(one)).map((one) => ({ ...one, map })))
+    found.push(
+      ...notationReadings(token, map.notations ?? [])
+        .filter((one) => !isKnown(one))
+        .map((one) => ({ ...one, map })),
+    )
   }
   return merged(found).filter((one) => isCommon(one) || isSomewhere(one))
 }
@@ -77,7 +88,9 @@ const isSomewhere = (reading) => (browser.book.get(reading.address) ?? []).some(
 function merged(readings) {
   const found = []
   for (const one of readings) {
-    const like = found.find((other) => other.address === one.address && other.space === one.space && other.notation === one.notation)
+    const like = found.find(
+      (other) => other.address === one.address && other.space === one.space && other.notation === one.notation,
+    )
     if (like) delete like.map
     else found.push({ ...one })
   }
@@ -101,7 +114,8 @@ function textHit(item, token) {
   let best = null
   for (const text of item.texts) {
     const rank = textRank(text, token)
-    if (rank && (!best || rank > best.rank)) best = { rank, why: text.kind === "name" || text.kind === "id" ? [] : [`${text.kind}: ${text.text}`] }
+    if (rank && (!best || rank > best.rank))
+      best = { rank, why: text.kind === "name" || text.kind === "id" ? [] : [`${text.kind}: ${text.text}`] }
   }
   if (!best && item.map.title.toLowerCase().includes(token)) return { rank: 1, why: [] }
   return best ?? startHit(item, token)

@@ -3,8 +3,16 @@
  */
 
 const browser = {
-  maps: [], items: [], book: new Map(), state: { query: "", chosen: {}, open: "", map: "", element: "" }, open: null, opened: new Set(matchMedia("(min-width: 1101px)").matches ? ["model", "access"] : []),
-  said: new Map(), choices: new Map(), most: MOST_ROWS, calculates: true,
+  maps: [],
+  items: [],
+  book: new Map(),
+  state: { query: "", chosen: {}, open: "", map: "", element: "" },
+  open: null,
+  opened: new Set(matchMedia("(min-width: 1101px)").matches ? ["model", "access"] : []),
+  said: new Map(),
+  choices: new Map(),
+  most: MOST_ROWS,
+  calculates: true,
 }
 
 /** Open the data and show what the address says. */
@@ -55,76 +63,21 @@ function close() {
   const row = document.querySelector('#results [aria-current="true"]')
   const href = row?.getAttribute("href")
   go({ ...browser.state, open: "", map: "", element: "" })
-  const again = [...document.querySelectorAll("#results .row")].find((one) => one.getAttribute("href")?.endsWith(href?.split("open=").pop() ?? "\n"))
+  const again = [...document.querySelectorAll("#results .row")].find((one) =>
+    one.getAttribute("href")?.endsWith(href?.split("open=").pop() ?? "\n"),
+  )
   ;(again ?? document.getElementById("search")).focus()
 }
 
 /** Put the focus on what was opened, or on the part of it that a link leads to. */
 function reveal() {
+  document.querySelector('#results [aria-current="true"]')?.scrollIntoView({ block: "nearest" })
   const target = document.getElementById(browser.state.open)
   const isPart = target && target.classList.contains("target")
   const heading = isPart ? target : document.getElementById("opened")
   heading?.focus({ preventScroll: !isPart })
   if (isPart) target.scrollIntoView()
   else document.getElementById("details").scrollTop = 0
-}
-
-/** What the state opens: an item, or a map with the anchor of one of its tables. */
-function openedOf({ open: anchor, map: id, element: path }) {
-  if (!anchor) return null
-  const isThere = (map) => !id || map.id === id
-  const item = browser.items.find((one) => one.anchor === anchor && isThere(one.map))
-  if (item) return { item, choice: choiceOf(item, path) }
-  const map = browser.maps.find(isThere)
-  return map && /^(?:about|condition-|unit-|program-)/.test(anchor) ? { map } : null
-}
-
-/** What is chosen of an item: at first the model that the list is filtered by, and the element that was found. */
-function choiceOf(item, path = "") {
-  const { map, entry, anchor } = item
-  const key = `${map.id} ${anchor} ${path}`
-  if (!browser.choices.has(key)) {
-    const models = modelsOf(map, entry)
-    const model = models.find((one) => browser.state.chosen.model?.includes(one)) ?? models[0]
-    const index = path ? elementsOf(map, entry, model).find((one) => registerOf(map, entry, model, one).path === path) : undefined
-    browser.choices.set(key, { model, index, view: "", words: null, text: null })
-  }
-  return browser.choices.get(key)
-}
-
-/** Show the state. */
-function render() {
-  const { query, chosen } = browser.state
-  const { items, readings } = search(query)
-  const found = items.filter(({ item }) => isChosen(item, chosen))
-  browser.open = openedOf(browser.state)
-  showReadings(readings)
-  document.getElementById("facets").replaceChildren(...Object.keys(FACETS).map((name) => shownFacet(name, items.map((one) => one.item), chosen)).filter(Boolean), ...clearButton(chosen))
-  showResults(found)
-  document.getElementById("count").textContent = countText(found.length)
-  showOpened()
-}
-
-/** Show what is open. */
-function showOpened() {
-  document.body.classList.toggle("opened", Boolean(browser.open))
-  document.getElementById("details").replaceChildren(...flat(browser.open ? (browser.open.item ? shownItem(browser.open) : shownMap(browser.open.map)) : shownWelcome()))
-}
-
-const flat = (nodes) => nodes.flat(Infinity).filter(Boolean)
-
-const countText = (count) => `${count} of ${browser.items.length} ${browser.items.length === 1 ? "register" : "registers and commands"}`
-
-const clearButton = (chosen) =>
-  Object.values(chosen).some((values) => values.length) ? [button("Clear filters", () => { go({ ...browser.state, chosen: {} }); document.getElementById("search").focus() }, { class: "clear" })] : []
-
-/** What stands beside the list while nothing is open. */
-function shownWelcome() {
-  const maps = browser.maps.map((map) => element("li", {}, element("a", { href: hashOfAnchor(map, "about") }, map.title), ` ${map.registers.length} registers, ${map.models.map((one) => one.name).join(", ")}`))
-  return [element("h2", { class: "welcome" }, "Choose a register"),
-    element("p", {}, "Search takes names, ids, symbols, labels of values and bits, sections, and addresses in every notation: 4049, 0xFD1, FD1h, 44050. An address of any view, alias or word of a register finds it."),
-    element("ul", { class: "maps" }, maps),
-    element("p", { class: "hint" }, element("kbd", {}, "/"), " search · ", element("kbd", {}, "↓"), " ", element("kbd", {}, "↑"), " results · ", element("kbd", {}, "Enter"), " open · ", element("kbd", {}, "Esc"), " close")]
 }
 
 function onKey(event) {
@@ -144,20 +97,11 @@ function onKey(event) {
 
 /** Light or dark: what the system prefers, until the button was used. */
 function changeTheme() {
-  const isDark = document.documentElement.dataset.theme ? document.documentElement.dataset.theme === "dark" : matchMedia("(prefers-color-scheme: dark)").matches
+  const isDark = document.documentElement.dataset.theme
+    ? document.documentElement.dataset.theme === "dark"
+    : matchMedia("(prefers-color-scheme: dark)").matches
   document.documentElement.dataset.theme = isDark ? "light" : "dark"
   announce(isDark ? "Light" : "Dark")
 }
-
-/** Open every register of the list for print. */
-function openAll() {
-  const { items } = search(browser.state.query)
-  const found = items.filter(({ item }) => isChosen(item, browser.state.chosen))
-  browser.calculates = false
-  document.getElementById("details").replaceChildren(...flat((browser.open ? [browser.open] : found.map(({ item }) => ({ item, choice: choiceOf(item) })))
-    .map((one) => element("article", {}, flat(one.item ? shownItem(one) : shownMap(one.map))))))
-  browser.calculates = true
-}
-
 
 document.addEventListener("DOMContentLoaded", start)

@@ -4,7 +4,7 @@
 
 /** What the reader has said of a map so far; it stays while registers are looked at. */
 function saidOf(map) {
-  if (!browser.said.has(map.id)) browser.said.set(map.id, { values: {}, givens: {} })
+  if (!browser.said.has(map.id)) browser.said.set(map.id, { values: {}, givens: {}, written: {} })
   return browser.said.get(map.id)
 }
 
@@ -50,7 +50,10 @@ function registerField(map, model, path, changed) {
   const found = subjectOf(map, model, path)
   const said = saidOf(map)
   const value = said.values[path] ?? defaultOf(map, model, path)
-  const tell = (text) => { said.values[path] = text; changed() }
+  const tell = (text) => {
+    said.values[path] = text
+    changed()
+  }
   const members = found?.field ? found.field.enum?.members : found?.register.enum?.members
   const name = found ? (found.field ? `${found.register.name}: ${found.field.label}` : found.register.name) : path
   const control = members?.length ? memberPicker(members, value, tell) : numberField(value, tell)
@@ -66,13 +69,23 @@ function memberPicker(members, value, tell) {
 
 /** A list to pick from: pairs of value and text. */
 function picker(options, value, tell, attributes = {}) {
-  const made = element("select", { ...attributes, on: { change: () => tell(made.value) } },
-    options.map(([one, text]) => element("option", { value: one, selected: one === value }, text)))
+  const made = element(
+    "select",
+    { ...attributes, on: { change: () => tell(made.value) } },
+    options.map(([one, text]) => element("option", { value: one, selected: one === value }, text)),
+  )
   return made
 }
 
 function numberField(value, tell) {
-  const made = element("input", { type: "text", inputmode: "decimal", autocomplete: "off", spellcheck: "false", placeholder: "not known", on: { input: () => tell(made.value.trim()) } })
+  const made = element("input", {
+    type: "text",
+    inputmode: "decimal",
+    autocomplete: "off",
+    spellcheck: "false",
+    placeholder: "not known",
+    on: { input: () => tell(made.value.trim()) },
+  })
   made.value = value
   return made
 }
@@ -80,28 +93,43 @@ function numberField(value, tell) {
 function givenField(map, id, changed) {
   const given = (map.givens ?? []).find((one) => one.id === id)
   if (!given) return null
-  const { givens } = saidOf(map)
-  const tell = (value) => {
+  const { givens, written } = saidOf(map)
+  const tell = (value, text = value) => {
+    written[id] = text
     if (value === "") delete givens[id]
     else givens[id] = value
     changed()
   }
   const control = {
-    boolean: () => picker([["", "not known"], ["true", "yes"], ["false", "no"]], String(givens[id] ?? ""), tell),
-    choice: () => picker([["", "not known"], ...(given.choices ?? []).map((one) => [one, one])], givens[id] ?? "", tell),
-    codes: () => numberField((givens[id] ?? []).join(", "), (text) => tell(codesOf(text))),
-    number: () => numberField(givens[id] ?? "", tell),
+    boolean: () =>
+      picker(
+        [
+          ["", "not known"],
+          ["true", "yes"],
+          ["false", "no"],
+        ],
+        String(givens[id] ?? ""),
+        tell,
+      ),
+    choice: () =>
+      picker([["", "not known"], ...(given.choices ?? []).map((one) => [one, one])], givens[id] ?? "", tell),
+    codes: () => numberField(written[id] ?? "", (text) => tell(codesOf(text), text)),
+    number: () => numberField(written[id] ?? "", (text) => tell(text)),
   }[given.kind]()
   control.setAttribute("data-known", id)
-  return labelled(element("span", {}, given.description, " ", element("code", {}, id)), control)
+  return labelled(element("span", {}, given.description.replaceAll("`", ""), " ", element("code", {}, id)), control)
 }
 
 /** The codes of a list `1, 4..6`; empty for no text. */
 function codesOf(text) {
   if (!text.trim()) return ""
-  return text.split(/[,\s]+/).filter(Boolean).flatMap((part) => {
-    const [low, high = low] = part.split("..").map(Number)
-    return Number.isInteger(low) && Number.isInteger(high) && high - low < 1000
-      ? Array.from({ length: Math.max(high - low + 1, 0) }, (_, place) => String(low + place)) : []
-  })
+  return text
+    .split(/[,\s]+/)
+    .filter(Boolean)
+    .flatMap((part) => {
+      const [low, high = low] = part.split("..").map(Number)
+      return Number.isInteger(low) && Number.isInteger(high) && high - low < 1000
+        ? Array.from({ length: Math.max(high - low + 1, 0) }, (_, place) => String(low + place))
+        : []
+    })
 }
