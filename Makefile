@@ -6,7 +6,7 @@ INSTALLED := .venv/.installed
 
 # the tests that coverage is measured with: quick ones that go through all rooms
 COVERING := tests/conformance/test_cases.py tests/regscribe/cli/test_commands.py \
-	$(addprefix tests/regscribe/,source schema compose lower checks export importers breaking register_browser language_server) \
+	$(addprefix tests/regscribe/,source schema compose lower checks export importers breaking register_browser language_server site) \
 	$(addprefix tests/runtime/,wire registers planning operations driver)
 
 # what needs no programs by others; and of that what takes no more than a few seconds
@@ -14,7 +14,7 @@ OURS := not wire and not interop and not browser
 QUICK := not slow and $(OURS)
 
 .DEFAULT_GOAL := generate
-.PHONY: generate test test-all coverage test-wire test-interop test-browser test-versions check format bench conformance fuzz mutate sessions lock clean
+.PHONY: generate test test-all coverage test-wire test-interop test-browser test-versions check format bench site conformance fuzz mutate sessions lock clean
 
 generate: $(INSTALLED) ## compile all maps; only what changed is written
 	@$(BIN)/regscribe generate
@@ -74,6 +74,9 @@ mutate: $(INSTALLED) ## break scales, codes, addresses, orders and limits: the t
 MINUTES ?= 2
 soak: $(INSTALLED) ## drive the drivers over bad lines for MINUTES=.. and report operations, faults, errors, wrong values
 	@SOAK_MINUTES=$(MINUTES) $(BIN)/pytest -q tests/system/bad_lines/test_soak.py
+
+site: $(INSTALLED) ## the pages of docs/, all references and the runtime's names as a site to search, in site/
+	$(BIN)/regscribe site --docs . --api --title regscribe --out site
 
 sessions: $(INSTALLED) ## carry out the sessions of docs/cli.md, settings.md and programs.md anew and write what they print
 	$(BIN)/python tests/regscribe/cli/live/sessions.py

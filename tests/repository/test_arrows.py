@@ -60,6 +60,7 @@ ROOMS = {
     "register_browser": {"model", "emit", "export", "visible"},
     "evidence": {"model", "emit", "export"},
     "importers": {"model", "dialects", "source", "emit", "evidence", "files", "draft", "plugins", "visible"},
+    "site": {"model", "emit", "evidence", "register_browser"},
     "files": {"model", "source", "schema", "visible"},
     "pipeline": {"model", "source", "schema", "compose", "lower", "checks"},
     "simulate": {"model", "reference", "source", "files", "map_files", "pipeline", WIRE},
@@ -70,7 +71,7 @@ ROOMS = {
     "tools": {"model", "source", "schema", "files", "visible", "emit", "pictures", "map_files", "pipeline"} | WHOLE,
     "cli": {"model", "reference", "source", "schema", "compose", "lower", "checks", "emit", "pictures", "evidence"}
     | {"plugins", "simulate", "pipeline", "files", "tools", "map_files", "visible", "draft", "losses"}
-    | {"planned_model", "breaking", "register_browser", "language_server"}
+    | {"planned_model", "breaking", "register_browser", "language_server", "site"}
     | WHOLE,
 }
 """Which other rooms a room may import, besides the vocabulary in `regscribe_runtime.values`."""

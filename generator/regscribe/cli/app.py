@@ -32,6 +32,7 @@ COMMANDS = {
     "import": "Make a map of a table of registers or of another program's configuration.",
     "export": "Print what maps say in the form of another program, and what that form cannot say.",
     "browse": "Make one HTML file that searches registers and calculates raw <-> value.",
+    "site": "Make a static site of maps: searchable references, register browser, own pages.",
     "compare": "Hold a map against a second transcription in CSV, or against another map.",
     "breaking": "Say what changed between two versions of maps, and what it breaks.",
     "coverage": "Count what maps cover; list what is inferred and open.",

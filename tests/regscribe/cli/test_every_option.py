@@ -27,6 +27,7 @@ USUAL: dict[str, list[str]] = {
     "export": ["acme/oven", "--format", "csv"],
     "import": ["table.csv"],
     "browse": ["acme/oven"],
+    "site": ["acme/oven"],
     "compare": ["acme/oven", "acme/oven"],
     "breaking": ["acme/oven", "--against", "maps"],
     "coverage": [],

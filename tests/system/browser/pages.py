@@ -49,7 +49,7 @@ class Opener:
 
 def overflow(page: Page) -> int:
     """Return by how many pixels a page is wider than its window: 0 if it need not be scrolled sideways."""
-    return int(page.evaluate("document.documentElement.scrollWidth - document.documentElement.clientWidth"))
+    return max(0, int(page.evaluate("document.documentElement.scrollWidth - document.documentElement.clientWidth")))
 
 
 def serious(page: Page) -> list[str]:
