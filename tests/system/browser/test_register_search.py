@@ -58,6 +58,21 @@ def test_an_address_with_two_meanings_shows_both(series_c: Page) -> None:
     ]
 
 
+def test_a_number_of_the_manuals_own_counting_is_found_after_the_wire_address(
+    open_page: Opener, tmp_path: Path
+) -> None:
+    page = open_page(written(tmp_path, map_of("athena/platinum-x5000")))  # JBUS counts from 1
+    assert search(page, "65") == ["MASTER enable", "Read Status"]
+    assert page.locator("#readings li").all_inner_texts() == ["wire 65: 1 register", "holding 64 (JBUS): 1 register"]
+
+
+def test_a_further_address_is_found(open_page: Opener, tmp_path: Path) -> None:
+    page = open_page(written(tmp_path, map_of("fdc/series-100")))  # the process value is at 64 and at 128
+    assert search(page, "128") == search(page, "64")
+    search(page, "128")
+    assert page.locator("#results .why").all_inner_texts() == ["alias at 128"]
+
+
 def test_all_maps_are_searched_at_once(open_page: Opener, tmp_path: Path) -> None:
     page = open_page(written(tmp_path, *every_map()))
     assert search(page, "0xFD1") == ["Input Type", "Input Type"]

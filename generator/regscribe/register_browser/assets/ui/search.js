@@ -5,6 +5,7 @@
 const WEIGHTS = { name: 60, id: 55, symbol: 65, section: 40, group: 15, value: 25, bit: 25, space: 8, description: 5 }
 const WHOLE = 30
 const EXACT_ADDRESS = 200
+const LESS_PLAIN = 5
 const FEWEST_DIGITS = 2
 
 /** Where every address stands. @returns {Map<number, {item: Item, place: Place, word: number}[]>} */
@@ -46,12 +47,12 @@ const joined = (hit, more) =>
 /** The items at the addresses that a token can mean; `readings` gets each meaning. */
 function addressHits(token, readings) {
   const found = new Map()
-  for (const reading of meaningsOf(token)) {
+  for (const [place, reading] of meaningsOf(token).entries()) {
     const hits = (browser.book.get(reading.address) ?? []).filter((hit) => fits(hit, reading))
     readings.push({ text: readingText(reading), count: new Set(hits.map((hit) => hit.item)).size })
     for (const hit of hits) {
       const known = found.get(hit.item) ?? {
-        rank: EXACT_ADDRESS - hit.word,
+        rank: EXACT_ADDRESS - hit.word - LESS_PLAIN * place,
         why: [],
         path: hit.item.entry.elements ? hit.place.path : undefined,
       }
