@@ -49,7 +49,9 @@ check: $(INSTALLED) ## lint, types of code and generated drivers, drift of gener
 	$(BIN)/ruff check
 	$(BIN)/ruff format --check
 	$(BIN)/mypy generator generated/regscribe_devices
+	$(BIN)/mypy --platform win32 generator generated/regscribe_devices
 	$(BIN)/pyright
+	$(BIN)/pyright --pythonplatform Windows
 	$(BIN)/regscribe generate --check
 	$(MAKE) coverage
 

@@ -170,7 +170,7 @@ def _replace(path: Path, octets: bytes, *, new: bool) -> None:
             file.write(octets)
             file.flush()
             os.fsync(file.fileno())
-            os.fchmod(file.fileno(), _mode(path))
+        Path(temporary).chmod(_mode(path))
         if new:
             path.hardlink_to(temporary)  # which fails where there is a file, as no move does
             Path(temporary).unlink()

@@ -87,6 +87,7 @@ LIBRARIES = {
     "click": {"cli"},
     "rich": {"cli"},
     "plotille": {"cli"},
+    "platformdirs": {"tools"},
     "pymodbus": {f"{WIRE}.framing", f"{RUNTIME}.link.clients"},
     "openpyxl": {"importers", "export"},
     "pdfplumber": {"importers"},

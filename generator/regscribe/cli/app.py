@@ -147,7 +147,8 @@ def main() -> NoReturn:
 def run(arguments: Sequence[str]) -> int:
     """Run one command line; return its exit code. Raises nothing but SystemExit."""
     for stream in (sys.stdout, sys.stderr):
-        getattr(stream, "reconfigure", lambda **_: None)(errors="backslashreplace")  # a map may hold any character
+        # a map may hold any character, and Windows would end lines with \r\n, in files that a command prints, too
+        getattr(stream, "reconfigure", lambda **_: None)(errors="backslashreplace", newline="\n")
     try:
         return _carry_out(arguments)
     except (click.Abort, KeyboardInterrupt):

@@ -110,7 +110,7 @@ def write_record(place: Path, plain: Mapping[str, object]) -> None:
     place.parent.mkdir(parents=True, exist_ok=True)
     temporary = place.with_name(f"{place.name}.{os.getpid()}.tmp")
     record = json.dumps(plain)
-    temporary.write_text(f"{digest(record.encode())}\n{record}", encoding="utf-8")
+    temporary.write_text(f"{digest(record.encode())}\n{record}", encoding="utf-8", newline="\n")
     temporary.replace(place)
 
 
@@ -161,7 +161,8 @@ def _files(folder: Path) -> Iterator[Path]:
 
 def folder() -> Path:
     """Return the folder in the user's cache directory that is regscribe's own."""
-    home = os.environ.get("XDG_CACHE_HOME") or os.path.expanduser("~/.cache")  # noqa: PTH111 - Path.expanduser raises without a home
+    usual = os.environ.get("LOCALAPPDATA") if sys.platform == "win32" else None
+    home = os.environ.get("XDG_CACHE_HOME") or usual or os.path.expanduser("~/.cache")  # noqa: PTH111 - Path.expanduser raises without a home
     return Path(home, "regscribe")
 
 

@@ -21,6 +21,9 @@ from pkgutil import extend_path
 __path__ = extend_path(__path__, __name__)
 '''
 
+DEVICE = re.compile(r"(?:con|prn|aux|nul|com[0-9¹²³]|lpt[0-9¹²³])(?:\..*)?", re.IGNORECASE)
+"""Names that Windows keeps for devices, whatever ending they have."""
+
 MOST_LINES = 20_000
 """Longer files are told apart but not compared line by line: that would take minutes."""
 
@@ -92,6 +95,9 @@ def _target(path: str, out: Path) -> Path:
     parts = PurePosixPath(path).parts
     if not parts or path.startswith("/") or ".." in parts or re.search(r"[\\\0:]", path):
         message = f"refused to write {path!r}: the path leaves the output directory"
+        raise WriteError(message)
+    if taken := next((part for part in parts if DEVICE.fullmatch(part)), None):
+        message = f"refused to write {path!r}: `{taken}` is a device on Windows, where no file can have this name"
         raise WriteError(message)
     target = out.joinpath(*parts)
     real_out, real = os.path.realpath(out), os.path.realpath(target)

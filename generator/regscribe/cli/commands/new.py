@@ -24,7 +24,7 @@ def command(*, map_id: str, folder: Path) -> None:
     path = folder / maker / f"{family}.yaml"
     try:
         path.parent.mkdir(parents=True, exist_ok=True)
-        with path.open("x", encoding="utf-8") as file:
+        with path.open("x", encoding="utf-8", newline="\n") as file:
             file.write(skeleton(map_id, schema_for(folder)))
     except FileExistsError:
         refuse(f"{path} exists; nothing was changed. Choose another name or edit that map")

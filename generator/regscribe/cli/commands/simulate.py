@@ -4,6 +4,7 @@ import asyncio
 import re
 import signal
 import sys
+from contextlib import suppress
 from dataclasses import replace
 from pathlib import Path
 from typing import TypedDict, Unpack
@@ -140,7 +141,8 @@ async def _serve(devices: list[SimulatedDevice], service: Service, drawn: Reques
     """Serve until Ctrl-C (which is raised) or TERM; SimulatorError as `serve`."""
     loop = asyncio.get_running_loop()
     serving = loop.create_task(simulator.serve(devices, service, ready=lambda server: _announce(devices, server)))
-    loop.add_signal_handler(signal.SIGTERM, serving.cancel)
+    with suppress(NotImplementedError):  # on Windows, which ends a program without asking it
+        loop.add_signal_handler(signal.SIGTERM, serving.cancel)
     tasks = [serving, *([loop.create_task(table(drawn))] if drawn is not None else [])]
     try:
         await asyncio.wait([serving])

@@ -79,7 +79,7 @@ def check(text: str) -> Sequence[Diagnostic]:
     """Check the text of a map that is no file yet."""
     with tempfile.TemporaryDirectory() as folder:
         path = Path(folder) / "map.yaml"
-        path.write_text(text, encoding="utf-8")
+        path.write_text(text, encoding="utf-8", newline="\n")
         return compile_map(path).diagnostics
 
 

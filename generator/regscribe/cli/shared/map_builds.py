@@ -69,7 +69,8 @@ def make_all(paths: Sequence[Path], templates: Templates | None = None) -> Itera
 
 def _cores() -> int:
     """How many cores this process may use."""
-    return len(os.sched_getaffinity(0)) if hasattr(os, "sched_getaffinity") else os.cpu_count() or 1
+    allowed = getattr(os, "sched_getaffinity", None)  # not everywhere
+    return len(allowed(0)) if allowed else os.cpu_count() or 1
 
 
 def _at_once(paths: Sequence[Path], templates: Templates | None, workers: int) -> Iterator[Made]:

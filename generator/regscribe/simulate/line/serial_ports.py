@@ -1,16 +1,23 @@
 """Serial ports: a serial device with its speed and format, or a pseudo terminal made here."""
 
+import io
 import os
-import termios
-import tty
+import sys
 
 import serial  # type: ignore[import-untyped]  # pyserial ships no types
 
 from regscribe.simulate.errors import SimulatorError
 from regscribe_runtime.values.serial_line import SerialLine
 
+if sys.platform != "win32":
+    import termios
+    import tty
+
 LOCAL_FLAGS = 3
 """Their index in the list of `termios.tcgetattr`."""
+
+
+INSTEAD = "serve TCP, with RTU frames if the client wants them: --tcp 127.0.0.1:5020 --framing rtu"
 
 
 class OpenLine:
@@ -29,12 +36,11 @@ class OpenLine:
         no other flag changed, as for the second client with the same settings. So a flag is put back that every client
         clears and that means nothing on a raw line: how erased characters are echoed.
         """
-        if self._held is None:
-            return
-        settings = termios.tcgetattr(self._held)
-        if not settings[LOCAL_FLAGS] & termios.ECHOE:
-            settings[LOCAL_FLAGS] |= termios.ECHOE
-            termios.tcsetattr(self._held, termios.TCSANOW, settings)
+        if sys.platform != "win32" and self._held is not None:
+            settings = termios.tcgetattr(self._held)
+            if not settings[LOCAL_FLAGS] & termios.ECHOE:
+                settings[LOCAL_FLAGS] |= termios.ECHOE
+                termios.tcsetattr(self._held, termios.TCSANOW, settings)
 
     def close(self) -> None:
         """Close all that was opened."""
@@ -56,12 +62,32 @@ def open_serial(path: str, line: SerialLine) -> OpenLine:
     except (OSError, ValueError) as problem:
         message = f"cannot open serial device {path!r} with {line.baud} baud {line.format}: {problem}"
         raise SimulatorError(message) from problem
-    return OpenLine(path, port.fileno(), port=port)
+    try:
+        return OpenLine(path, port.fileno(), port=port)
+    except io.UnsupportedOperation:
+        port.close()
+        message = f"{path}: on Windows no serial device can be served; {INSTEAD}"
+        raise SimulatorError(message) from None
 
 
 def open_pseudo_terminal() -> OpenLine:
-    """Make a pseudo terminal; `path` is the end that a client opens. Closed clients may come back: it stays open."""
-    ours, theirs = os.openpty()
-    tty.setraw(theirs)
-    os.set_blocking(ours, False)
-    return OpenLine(os.ttyname(theirs), ours, held=theirs)
+    """Make a pseudo terminal; `path` is the end that a client opens. Closed clients may come back: it stays open.
+
+    SimulatorError on Windows, which has none.
+    """
+    path, ours, theirs = _terminal()
+    return OpenLine(path, ours, held=theirs)
+
+
+if sys.platform == "win32":
+
+    def _terminal() -> tuple[str, int, int]:
+        message = f"Windows has no pseudo terminals; {INSTEAD}"
+        raise SimulatorError(message)
+else:
+
+    def _terminal() -> tuple[str, int, int]:
+        ours, theirs = os.openpty()
+        tty.setraw(theirs)
+        os.set_blocking(ours, False)
+        return os.ttyname(theirs), ours, theirs

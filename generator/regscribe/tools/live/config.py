@@ -72,10 +72,9 @@ def find(path: str | Path | None = None) -> Path | None:
 
 def _is_trusted(path: Path) -> bool:
     """Whether a file belongs to the user or to root; always where files have no owners (Windows)."""
-    if not hasattr(os, "getuid"):
-        return True
+    own = getattr(os, "getuid", None)
     try:
-        return path.stat().st_uid in {*TRUSTED, os.getuid()}
+        return own is None or path.stat().st_uid in {*TRUSTED, own()}
     except OSError:
         return False
 

@@ -48,23 +48,26 @@ class TextLog:
         self.file.close()
 
     def _begin(self) -> int:
-        file = self.file.fileno()
-        end = os.fstat(file).st_size
+        end = os.fstat(self.file.fileno()).st_size
         if not end:
             self.whole = 0
             self._append(self.head, "the first line")
             return len(self.head)
-        start = os.pread(file, max(len(self.head), 1), 0)
+        start = self._read(max(len(self.head), 1), 0)
         if start != (self.head or b"{"):
             message = f"{self.path} exists and is no log of this kind: name another file"
             raise TargetError(message)
         found = -1
         while found < 0 < end:  # a line that ends in the middle was cut off when its writer was
             start_of_block = max(end - READ_AT_ONCE, 0)
-            found = os.pread(file, end - start_of_block, start_of_block).rfind(b"\n")
+            found = self._read(end - start_of_block, start_of_block).rfind(b"\n")
             end = start_of_block
         self.file.truncate(end + found + 1)
         return end + found + 1
+
+    def _read(self, count: int, place: int) -> bytes:
+        self.file.seek(place)  # what is written goes to the end all the same
+        return self.file.read(count)
 
     def _append(self, data: bytes, what: str) -> None:
         left = memoryview(data)

@@ -8,6 +8,7 @@ import select
 import socket
 import sys
 import time
+from collections.abc import Callable
 from typing import Any, Protocol
 
 import serial  # type: ignore[import-untyped]  # pyserial ships no types
@@ -23,8 +24,8 @@ CHUNK = 4096
 POLL_SECONDS = 0.002
 """Between two looks at a port that the system cannot wait for (a serial port of Windows)."""
 PORTS_NAMED = 5
-MOST_SELECTED = 1024 if os.name == "posix" else sys.maxsize
-"""Descriptors from here on are too high for select (FD_SETSIZE)."""
+MOST_SELECTED = 1024
+"""Descriptors from here on are too high for select (FD_SETSIZE), but for that of Windows."""
 
 
 class Stream(Protocol):
@@ -188,23 +189,30 @@ def wait(wire: Stream, seconds: float) -> bool:
         while not (there := wire.waiting()) and time.monotonic() < deadline:
             time.sleep(POLL_SECONDS)
         return there
-    if wire.descriptor < MOST_SELECTED:  # to the microsecond, where poll counts in milliseconds
-        return bool(select.select([wire.descriptor], [], [], max(seconds, 0.0))[0])
-    poller = select.poll()
-    poller.register(wire.descriptor, select.POLLIN)
-    return bool(poller.poll(max(seconds, 0.0) * 1000))
+    if sys.platform != "win32" and wire.descriptor >= MOST_SELECTED:  # select counts to the microsecond, poll to 1 ms
+        poller = select.poll()
+        poller.register(wire.descriptor, select.POLLIN)
+        return bool(poller.poll(max(seconds, 0.0) * 1000))
+    return bool(select.select([wire.descriptor], [], [], max(seconds, 0.0))[0])
+
+
+async def _polled(waiting: Callable[[], bool], deadline: float) -> bool:
+    """Ask again and again whether bytes are there, until a time of the loop."""
+    while not (there := waiting()) and asyncio.get_running_loop().time() < deadline:  # noqa: ASYNC110 (nothing tells of bytes there)
+        await asyncio.sleep(POLL_SECONDS)
+    return there
 
 
 async def wait_async(wire: Stream, seconds: float) -> bool:
     """Wait in this task until bytes are there (True), for `seconds` at most."""
     loop = asyncio.get_running_loop()
     if wire.descriptor < 0:
-        deadline = loop.time() + seconds
-        while not (there := wire.waiting()) and loop.time() < deadline:  # noqa: ASYNC110 (nothing tells of bytes there)
-            await asyncio.sleep(POLL_SECONDS)
-        return there
+        return await _polled(wire.waiting, loop.time() + seconds)
     there_or_late: asyncio.Future[bool] = loop.create_future()
-    loop.add_reader(wire.descriptor, _settle, there_or_late, True)  # noqa: FBT003 (the result)
+    try:
+        loop.add_reader(wire.descriptor, _settle, there_or_late, True)  # noqa: FBT003 (the result)
+    except NotImplementedError:  # the usual loop on Windows
+        return await _polled(lambda: wait(wire, 0), loop.time() + seconds)
     timer = loop.call_later(max(seconds, 0), _settle, there_or_late, False)  # noqa: FBT003 (as above)
     try:
         return await there_or_late
