@@ -35,8 +35,11 @@ class _Reader(FlowReader):
     """Reads collections in block style by their indentation."""
 
     def start(self) -> None:
-        """Go to the first value of the document."""
+        """Go to the first value of the document, behind a mark and directives, which no map has."""
         self.at.skip()
+        while self.at.rest.startswith("%"):
+            self.at.next_line()
+            self.at.skip()
         if re.match(r"---\s*$", self.at.rest):
             self.at.next_line()
             self.at.skip()

@@ -9,6 +9,9 @@ _PLAIN = re.compile(r"(?:[^,\[\]{}:#\n]|:(?![\s,\[\]{}]|$)|(?<=\S)#)*")
 _COLON = re.compile(r"[ \t]*:[ \t]*")
 _ALIAS = re.compile(r"\*([^\s,\[\]{}]+)")
 _ENDS = {"{": "}", "[": "]"}
+LONGEST = 100
+"""Lines in which the end of a quoted text is looked for."""
+
 _ESCAPES = {"n": "\n", "t": "\t"}
 
 
@@ -175,7 +178,7 @@ class FlowReader:
         lines = 1
         while not (found := end.match(text, 1)):
             below = at.lines[line + lines] if line + lines < len(at.lines) else ""
-            if not below.strip() or len(below) - len(below.lstrip(" ")) <= floor:
+            if lines > LONGEST or not below.strip() or len(below) - len(below.lstrip(" ")) <= floor:
                 at.column = len(at.lines[line])
                 return SourceNode(at.lines[line][column + 1 :], at.place(line, column))
             text, lines = f"{text}\n{below}", lines + 1
