@@ -1,11 +1,10 @@
-"""Where the bytes of a value stand on the wire, which functions write them, and in which steps they count."""
+"""Where the bytes of a value stand on the wire, and in which steps they count."""
 
 from fractions import Fraction
 
 from regscribe.export.device.points import Point
 from regscribe.model import Order
 from regscribe.reference import Surroundings, UnknownValueError, choose, decimal_factor, present_view
-from regscribe_runtime.values.protocol import Protocol
 
 
 def places_of(point: Point) -> list[int]:
@@ -17,13 +16,6 @@ def places_of(point: Point) -> list[int]:
         steps = [place - 1 for place in words]
     swapped = point.wire.bytes is not Order.BIG
     return [2 * step + (place ^ swapped) for step in steps for place in (0, 1)]
-
-
-def write_functions(protocol: Protocol, point: Point) -> list[int]:
-    """Return the functions of a device that write a value as a whole, that of one word or coil first."""
-    view = point.register.write_view
-    usable = [one for one in view.space.write_functions if view.allows(one) and one in protocol.functions]
-    return [one for one in usable if point.words == 1 or one == view.space.write_functions[-1]]
 
 
 def step_of(point: Point, known: Surroundings) -> Fraction | None:

@@ -18,12 +18,17 @@ def obstacle(point: Point, protocol: Protocol) -> str:
     return "" if write_function(point, protocol) else "no function of the device writes all of it"
 
 
-def write_function(point: Point, protocol: Protocol) -> int:
-    """The function that writes it, that for one register or bit where it may be; 0: none does."""
+def write_functions(point: Point, protocol: Protocol) -> list[int]:
+    """The functions of the device that write it as a whole, that for one register or bit first."""
     to = point.register.write_view
     allowed = [one for one in to.space.write_functions if one in protocol.functions and to.allows(one)]
     single = to.space.write_functions[:1]
-    return next((one for one in allowed if to.words <= to.space.each or (one,) != single), 0)
+    return [one for one in allowed if to.words <= to.space.each or (one,) != single]
+
+
+def write_function(point: Point, protocol: Protocol) -> int:
+    """The first of `write_functions`; 0: none does."""
+    return next(iter(write_functions(point, protocol)), 0)
 
 
 def writes_several(point: Point, protocol: Protocol) -> bool:

@@ -11,6 +11,7 @@ from regscribe.emit.words import one_line
 from regscribe.export.device import LEFT_OUT, Device, Point
 from regscribe.export.device.names import Names
 from regscribe.export.device.numbers import decimal, is_exact
+from regscribe.export.device.writes import obstacle
 from regscribe.losses import Grade
 from regscribe.model import BitField, Kind, Order, Space, WireType, show
 
@@ -56,11 +57,14 @@ def _is_written(device: Device, point: Point) -> bool:
         return False
     function = _write_function(point)
     view = point.register.write_view
-    why = ""
-    if point.is_scaled:
-        why = "a scaled number is cut, not rounded, when it is written"
-    elif function not in device.register_map.protocol.functions or not view.allows(function):
-        why = f"it would be written by function {function}, which the device does not take for it"
+    reasons = {
+        (why := obstacle(point, device.register_map.protocol)): bool(why),
+        "a scaled number is cut, not rounded, when it is written": point.is_scaled,
+        f"it would be written by function {function}, which the device does not take for it": function
+        not in device.register_map.protocol.functions
+        or not view.allows(function),
+    }
+    why = next((why for why, holds in reasons.items() if holds), "")
     if why:
         device.lose(point.register, "write", Grade.LOST, f"read only: {why}")
     return not why

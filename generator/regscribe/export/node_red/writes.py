@@ -1,7 +1,8 @@
 """Which registers a flow may write, and the table from which it does."""
 
 from regscribe.export.device import Device, Point
-from regscribe.export.device.places import places_of, step_of, write_functions
+from regscribe.export.device.places import places_of, step_of
+from regscribe.export.device.writes import obstacle, write_function
 from regscribe.export.node_red.table import Entry, entry_of, intervals
 from regscribe.losses import Grade
 from regscribe.model import Kind
@@ -28,20 +29,19 @@ def _why_not(device: Device, point: Point) -> str:
     most = device.register_map.protocol.most_written(view.space)
     reasons = {
         f"the flow does not write a value of the kind {register.kind}": register.kind not in WRITTEN,
-        "a write needs commands around it": register.unlock or register.apply,
+        (why := obstacle(point, device.register_map.protocol)): bool(why),
         "its range is not known as the device is stated": point.ranges is None or point.valid is None,
         "its smallest step is not known as the device is stated": step_of(point, device.request.known) == 0,
         "its words do not stand side by side": point.wire.apart,
         "its writes must be aligned": (point.write or 0) % view.align or point.words % view.align,
         f"a request may write {most} of its {point.words} words": most < point.words,
-        "the device has no function that writes it": not write_functions(device.register_map.protocol, point),
     }
     return next((why for why, holds in reasons.items() if holds), "")
 
 
 def _entry(device: Device, point: Point, address: int) -> Entry:
     said = {key: value for key, value in entry_of(point, point.address).items() if key not in {"bit", "raw", "unit"}}
-    said |= {"fc": write_functions(device.register_map.protocol, point)[0], "address": address, "quantity": point.words}
+    said |= {"fc": write_function(point, device.register_map.protocol), "address": address, "quantity": point.words}
     if point.wire.space.is_bits:
         ends = {"lowest": "0", "highest": "1", "bits": 1, "bytes": [0]}
         return said | {"coil": True} | ends | ({"ranges": intervals(point.ranges)} if point.ranges else {})

@@ -5,8 +5,8 @@ from dataclasses import dataclass
 
 from regscribe.export.device import Device, Point
 from regscribe.export.device.names import Names
-from regscribe.export.device.places import write_functions
 from regscribe.export.device.reads import planned_reads
+from regscribe.export.device.writes import write_functions
 from regscribe.export.openhab.values import SPACES, Datum, data_of, why_read_only, write_type
 from regscribe.losses import Grade
 from regscribe.visible import json_text
@@ -114,6 +114,6 @@ def _write(device: Device, point: Point, address: int) -> dict[str, object]:
     settings: dict[str, object] = {"writeStart": f'"{address}"', "writeType": f'"{SPACES[point.wire.space]}"'}
     if point.wire.space.is_words:
         settings["writeValueType"] = f'"{write_type(point)}"'
-    if point.words == 1 and single not in write_functions(device.register_map.protocol, point):
+    if point.words == 1 and single not in write_functions(point, device.register_map.protocol):
         settings["writeMultipleEvenWithSingleRegisterOrCoil"] = "true"
     return settings

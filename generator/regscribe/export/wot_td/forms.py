@@ -8,7 +8,7 @@ from typing import Any
 from urllib.parse import quote
 
 from regscribe.export.device import Device, Point
-from regscribe.export.device.places import write_functions
+from regscribe.export.device.writes import obstacle, write_functions
 from regscribe.export.wot_td.parts import is_object
 from regscribe.model import Kind, Order, Space, WireType
 
@@ -61,15 +61,14 @@ def reads_whole(point: Point) -> bool:
 def why_read_only(device: Device, point: Point) -> str:
     """Return why a register cannot be written by such a thing; empty if it can."""
     register, wire = point.register, point.wire
-    functions = write_functions(device.register_map.protocol, point)
+    protocol = device.register_map.protocol
+    functions = write_functions(point, protocol)
     swapped = wire.space.is_words and "SWAP" in BYTE_SEQUENCES[wire.words, wire.bytes]  # type: ignore[index]  # it fits
     reasons = {
-        "it is not written in the form in which it is read": point.write is None,
         "its parts share a word with others": register.kind in PATTERNS,
         "a version is not written as a number": register.kind is Kind.VERSION,
         "node-wot does not fill a text up": register.kind is Kind.STRING,
-        "a write needs commands around it": register.unlock or register.apply,
-        "the device has no function that writes it": not functions,
+        (why := obstacle(point, protocol)): bool(why),
         "node-wot writes the words of this order in another one": swapped and (point.words > 1 or 6 not in functions),  # noqa: PLR2004 (FC 06)
         "node-wot does not write whole numbers of so many bytes": wire.type.is_integer and point.words > 2,  # noqa: PLR2004 (32 bits)
     }
@@ -85,7 +84,7 @@ def forms_of(device: Device, point: Point, *, writable: bool) -> list[dict[str, 
         return forms
     write = _form(device, point, point.write) | {"op": ["writeproperty"]}
     single = point.wire.space.write_functions[0]
-    if point.words == 1 and single not in write_functions(device.register_map.protocol, point):
+    if point.words == 1 and single not in write_functions(point, device.register_map.protocol):
         del write["modv:entity"]
         write["modv:function"] = SEVERAL[point.wire.space]
     if forms and {**write, "op": read["op"], "modv:pollingTime": read["modv:pollingTime"]} == read:
