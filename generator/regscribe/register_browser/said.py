@@ -3,7 +3,7 @@
 The page draws pictures and computes addresses of elements itself; it has all the rest from here.
 """
 
-from collections.abc import Collection, Iterable, Sequence
+from collections.abc import Collection, Iterable, Iterator, Sequence
 from dataclasses import replace
 from typing import Any
 
@@ -26,18 +26,27 @@ Json = Any
 
 
 def said(context: PageContext) -> dict[str, Json]:
-    """Return by anchor what is said of registers and commands; of an array at its first register."""
-    found: dict[str, Json] = {}
-    array: list[Runs] = []
-    for entry in (entry for section in sections(context) for entry in section.entries):
-        if entry.anchor:
-            found[entry.anchor] = _entry(entry) | ({"array": array} if array else {})
-            array = []
-        else:
-            array = [*array, *map(_runs, (entry.name, entry.summary, *entry.paragraphs))]
+    """Return by anchor what is said of registers and commands, with what is said of a register's group and arrays."""
     concerned = _concerned(context)
-    found = {anchor: facts | concerned[anchor] for anchor, facts in found.items()}
+    found = {
+        entry.anchor: _entry(entry) | {"group": group} | ({"array": arrays} if arrays else {}) | concerned[entry.anchor]
+        for section in sections(context)
+        for group in [[*map(_runs, (section.name, section.summary, *section.paragraphs))]]
+        for entry, arrays in _in_arrays(section.entries)
+    }
     return found | {entry.anchor: _entry(entry) for entry in commands(context)}
+
+
+def _in_arrays(entries: Iterable[RegisterEntry]) -> Iterator[tuple[RegisterEntry, list[Runs]]]:
+    """Yield the registers of a group with the texts of the arrays that they are in: these have no anchor."""
+    above: list[tuple[int, list[Runs]]] = []
+    for entry in entries:
+        depth = len(entry.marks)
+        above = [(level, texts) for level, texts in above if level < depth]
+        if entry.anchor:
+            yield entry, [text for _, texts in above for text in texts]
+        else:
+            above.append((depth, [*map(_runs, (entry.name, entry.summary, *entry.paragraphs))]))
 
 
 def about(context: PageContext) -> Json:

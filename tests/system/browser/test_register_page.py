@@ -1,14 +1,18 @@
 """The page of the register browser as a whole: hostile maps, what it asks for, axe, widths, print."""
 
+import re
 from dataclasses import replace
 from pathlib import Path
 
 import pytest
 from axe_playwright_python.sync_playwright import Axe
-from playwright.sync_api import Browser, expect
+from playwright.sync_api import Browser, Page, expect
 
+from regscribe.emit.markdown.context import context as reference
+from regscribe.emit.markdown.entries import sections
 from regscribe.model import RegisterMap
 from regscribe.pipeline import compile_map
+from regscribe.register_browser.inline_text import runs
 
 from .pages import PHONE, WIDE, Opener, overflow
 from .register_pages import SERIES_C, every_map, map_of, names, search, written
@@ -28,6 +32,7 @@ TURNED = "\u202eevil \u2066\u200f"
 """Marks that turn the direction of text: `check` refuses them in files, but a page is given any map."""
 
 LONG = "N" * 10_000
+OPEN = "(hash) => { history.replaceState(null, '', hash); dispatchEvent(new Event('popstate')) }"
 
 
 def hostile_map(folder: Path) -> Path:
@@ -185,3 +190,39 @@ def test_every_register_of_every_map_can_be_opened(open_page: Opener, tmp_path: 
         }"""
     )
     assert opened[0] == opened[1] > 900
+
+
+def test_a_register_shows_all_that_the_reference_says_of_it(open_page: Opener, series_c: str) -> None:
+    page, context = open_page(series_c), reference(map_of(SERIES_C))
+    lacking: list[tuple[str, str]] = []
+    for section in sections(context):
+        for entry in section.entries:
+            if not entry.anchor:
+                continue
+            rows = [row for row in entry.facts.rows if row[0] != "Wire address"]
+            tables = [one.table for one in entry.tables if not one.folded and not one.title.startswith("Views")]
+            cells = [cell for row in (*rows, *(row for one in tables for row in one.rows)) for cell in row]
+            texts = (
+                entry.name,
+                entry.summary,
+                *entry.danger,
+                *entry.paragraphs,
+                *entry.remarks,
+                *cells,
+                section.name,
+                *section.paragraphs,
+            )
+            page.evaluate(OPEN, f"#{entry.anchor}")
+            shown = shown_text(page)
+            lacking += [(entry.anchor, text) for text in map(plain, texts) if text not in shown]
+    assert lacking == []
+
+
+def plain(markdown: str) -> str:
+    """The text of Markdown as people see it."""
+    parts = [run if isinstance(run, str) else run.get("text", "") for run in runs(markdown)]
+    return re.sub(r"\s+", "", "".join(parts))
+
+
+def shown_text(page: Page) -> str:
+    return re.sub(r"\s+", "", page.locator("#details").text_content() or "")

@@ -49,7 +49,11 @@ const isInAddresses = ({ title, headers }) =>
 function shownRegister(item, choice, register) {
   const { map, entry } = item
   const isTold = entry.elements || entry.block // the table of addresses tells no formula and no block
-  const facts = (entry.said?.facts ?? []).filter(([label]) => isTold || plainText(label) !== "Wire address")
+  const { group = [] } = entry.said ?? {}
+  const lines = group.flatMap((runs, place) => (place > 1 ? ["\n", ...runs] : place ? [" · ", ...runs] : runs))
+  const facts = [...(entry.said?.facts ?? []), ...(lines.length ? [[["Group"], lines]] : [])].filter(
+    ([label]) => isTold || plainText(label) !== "Wire address",
+  )
   return [
     shownChoices(item, choice),
     addressTable(map, register),
