@@ -94,6 +94,12 @@ def test_a_mend_writes_what_was_meant(at: At, line: str, title: str, mended: str
     assert mends(at, f"{HEAD}      - {line}\n")[title] == f"{HEAD}      - {mended}\n"
 
 
+def test_a_free_address_is_found_behind_all_that_are_taken(at: At) -> None:
+    taken = "".join(f"      - {{at: {number}, name: Taken {number}}}\n" for number in range(13, 30))
+    found = mends(at, f"{HEAD}{taken}      - {{at: 11, name: A}}\n")
+    assert "Move it to 30, the next free address" in found
+
+
 def test_examples_are_read_with_the_state_that_they_name(at: At) -> None:
     example = "examples:\n  - {register: setpoint, words: [1505], value: 150.5, with: {fahrenheit: 0}}\n"
     files, file, _, _ = at(HEAD + example)
