@@ -16,8 +16,9 @@ QUICK := not slow and $(OURS)
 .DEFAULT_GOAL := generate
 .PHONY: generate test test-all coverage test-wire test-interop test-browser test-versions check format bench site conformance fuzz mutate sessions lock clean
 
-generate: $(INSTALLED) ## compile all maps; only what changed is written
+generate: $(INSTALLED) ## compile all maps, write the manual pages; only what changed is written
 	@$(BIN)/regscribe generate
+	@$(BIN)/regscribe man -q -o generator/man
 
 test: $(INSTALLED) ## run the tests
 	$(BIN)/pytest -q -n 2 -m "$(QUICK)"
@@ -53,6 +54,7 @@ check: $(INSTALLED) ## lint, types of code and generated drivers, drift of gener
 	$(BIN)/pyright
 	$(BIN)/pyright --pythonplatform Windows
 	$(BIN)/regscribe generate --check
+	$(BIN)/regscribe man -q -o generator/man && git diff --exit-code --stat generator/man
 	$(MAKE) coverage
 
 format: $(INSTALLED) ## format the code

@@ -53,6 +53,7 @@ COMMANDS = {
     "program": "Setpoint programs of a controller: read, draw, check, write and run them.",
     "decode": "Say in names what captured frames mean.",
     "lsp": "Serve an editor: findings while typing, completion, hover, renaming.",
+    "man": "Write manual pages for man(1).",
     "completion": "Let a shell complete commands, devices and registers.",
 }
 """Name and help of each command, whose module `regscribe.cli.commands.<name>` is imported only to run it."""

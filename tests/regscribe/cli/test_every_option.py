@@ -47,6 +47,7 @@ USUAL: dict[str, list[str]] = {
     "clone": ["TARGET", "TARGET"],
     "program": ["TARGET", "1"],
     "decode": ["O1", "010300000001840a"],
+    "man": ["-o", "pages"],
     "completion": ["bash"],
 }
 """Arguments with which each command does its work."""

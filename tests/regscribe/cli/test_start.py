@@ -40,7 +40,7 @@ def test_the_version_is_printed(cli: Callable[..., Any]) -> None:
 def test_every_help_shows_an_example(cli: Callable[..., Any], command: str) -> None:
     result = cli(command, "--help")
     assert result.code == 0
-    assert f"Example: regscribe {command} " in result.out
+    assert f"Example: regscribe {command}" in result.out
 
 
 def test_the_help_lists_every_command(cli: Callable[..., Any]) -> None:

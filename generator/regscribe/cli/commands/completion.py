@@ -3,11 +3,12 @@
 import click
 from click.shell_completion import get_completion_class
 
-from regscribe.cli.shared.output import tell
+from regscribe.cli.shared.output import refuse, tell
 
 WHERE = {
     "bash": 'eval "$(regscribe completion bash)"      # in ~/.bashrc',
     "zsh": 'eval "$(regscribe completion zsh)"       # in ~/.zshrc',
+    "powershell": "regscribe completion powershell | Out-String | Invoke-Expression   # in $PROFILE",
     "fish": "regscribe completion fish > ~/.config/fish/completions/regscribe.fish",
 }
 
@@ -21,7 +22,7 @@ WHERE = {
 def command(context: click.Context, *, shell: str) -> None:
     """Print the script that makes SHELL complete the names of commands, devices, models and registers."""
     kind = get_completion_class(shell)
-    if kind is None:  # click has these three
-        raise click.UsageError(shell)
+    if kind is None:
+        refuse(f"the click that is installed completes nothing for {shell}: pip install 'click>=8.5'")
     root = context.find_root()
     tell(kind(root.command, {}, "regscribe", "_REGSCRIBE_COMPLETE").source())
