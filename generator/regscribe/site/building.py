@@ -19,7 +19,9 @@ MARK = ".regscribe-site"
 PATIENCE = 600
 """Seconds after which Zensical is given up."""
 
-STYLE = "assets/regscribe.css"
+ASSETS = ("assets/regscribe.css", "assets/regscribe.js")
+"""What comes with each site, and where it stands there and here."""
+
 COLOURS = re.compile(r"\x1b\[[0-9;]*m")
 
 
@@ -42,7 +44,7 @@ def usable(out: Path) -> None:
 def build(pages: Mapping[str, str], others: Mapping[str, bytes], config: str, work: Path) -> list[Fault]:
     """Build `work`/site of pages and other files; return what is wrong in it. Raises SiteError where Zensical fails."""
     contents = {path: text.encode(errors="replace") for path, text in pages.items()} | dict(others)
-    contents[STYLE] = files("regscribe.site").joinpath(STYLE).read_bytes()
+    contents |= {path: files("regscribe.site").joinpath(path).read_bytes() for path in ASSETS}
     for path, content in contents.items():
         target = work / "pages" / path
         target.parent.mkdir(parents=True, exist_ok=True)

@@ -64,6 +64,7 @@ def configuration(title: str, nav: Sequence[object], *, url: str, repository: st
         "nav": nav,
         "theme": {"language": "en", "font": False, "features": FEATURES, "palette": palette},
         "extra_css": ["assets/regscribe.css"],
+        "extra_javascript": ["assets/regscribe.js"],
         "extra": {"generator": False},
         "markdown_extensions": EXTENSIONS,
         "plugins": {"search": {}} | ({"mkdocstrings": API} if api else {}),
