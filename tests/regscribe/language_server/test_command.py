@@ -5,8 +5,10 @@ import subprocess
 import sys
 
 import pytest
+from pygls.exceptions import JsonRpcException
 
 from regscribe.cli.app import run
+from regscribe.language_server.server import guarded
 
 
 def test_without_its_libraries_the_command_names_the_extra(
@@ -21,3 +23,22 @@ def test_the_libraries_of_the_server_are_loaded_by_it_alone() -> None:
     script = "import sys; from regscribe.cli.app import run; run(['lsp', '--help']); print('pygls' in sys.modules)"
     done = subprocess.run([sys.executable, "-c", script], capture_output=True, text=True, timeout=60, check=True)  # noqa: S603 - our own
     assert done.stdout.splitlines()[-1] == "False"
+
+
+def test_a_request_that_fails_is_told_in_the_log_and_ends_nothing(caplog: pytest.LogCaptureFixture) -> None:
+    def fails() -> None:
+        message = "no such thing"
+        raise LookupError(message)
+
+    assert guarded(fails)() is None
+    assert "no such thing" in caplog.text
+
+
+def test_a_refusal_is_no_fault(caplog: pytest.LogCaptureFixture) -> None:
+    def refuses() -> None:
+        message = "not so"
+        raise JsonRpcException(message, 1)
+
+    with pytest.raises(JsonRpcException):
+        guarded(refuses)()
+    assert caplog.text == ""
