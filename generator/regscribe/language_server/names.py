@@ -143,7 +143,7 @@ def home_of(root: SourceNode, path: Sequence[str | int]) -> tuple[str, tuple[str
         owner = node.child("array") if node and path[0] == "programs" else None
         if node and is_element and node.child("registers"):
             prefix = f"{prefix}{id_of(node)}."
-        elif owner and path[-1] != "array":  # names in a program are those of its arrays
+        elif owner and tuple(path[place + 1 :]) != ("array",):  # names in a program are those of its arrays
             prefix = f"{prefix}{text(owner)}."
         prefixes.insert(0, prefix)
     return inside, tuple(dict.fromkeys(prefixes))

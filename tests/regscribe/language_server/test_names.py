@@ -172,3 +172,20 @@ def test_what_a_map_says_is_escaped_in_a_hover(at: At) -> None:
     assert found is not None
     assert "[x](y)" not in found[1].split("```")[0]
     assert "<b>" not in found[1].split("```")[0]
+
+
+def test_names_in_a_setpoint_program_are_those_of_its_arrays(at: At) -> None:
+    program = (
+        "      - id: programs\n        name: Program\n        repeat: 1..2\n        stride: 100\n        registers:\n"
+        "          - {id: segments, repeat: 1..4, registers: [{at: 200, name: Level}, {at: 201, name: Time}]}\n"
+        "programs:\n  recipe:\n    name: Recipe\n    array: programs\n"
+        "    segments: {array: segments, setpoint: level, ramp: time}\n"
+    )
+    for part, expected in (
+        ("array: programs", 24),
+        ("array: segments", 29),
+        ("setpoint: level", 29),
+        ("ramp: time", 29),
+    ):
+        text = marked(HEAD + program, part, part.index(":") + 3)
+        assert where(targets(*at(text))) == [f"one.yaml:{expected}"]
