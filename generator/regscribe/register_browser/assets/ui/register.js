@@ -89,7 +89,7 @@ function sourceLine(map) {
   return element(
     "p",
     { class: "source" },
-    `Transcribed from ${parts.join(", ")}. Map ${map.id}, sha256 ${map.content_hash.slice(0, 16)}.`,
+    `Transcribed from ${parts.join(", ").replace(/\.$/, "")}. Map ${map.id}, sha256 ${map.content_hash.slice(0, 16)}.`,
   )
 }
 
