@@ -1,4 +1,4 @@
-"""What the map calls dangerous, guarded or conditional is read only for programs that write at a click, which is told."""
+"""What the map calls dangerous, guarded or conditional is read only where a click writes, and that is told."""
 
 from collections.abc import Callable
 
