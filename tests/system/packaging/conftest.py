@@ -17,7 +17,7 @@ LIBRARIES = {"pymodbus", "serial", "yaml", "_yaml", "jinja2", "markupsafe", "jso
 LIBRARIES |= {"referencing", "rpds", "attr", "attrs", "click", "rich", "plotille", "pygments", "markdown_it", "mdurl"}
 LIBRARIES |= {"typing_extensions.py", "openpyxl", "et_xmlfile", "defusedxml", "platformdirs"}
 
-TOOLS = ("pre-commit", "check-jsonschema", "twine", "uv", "pipx", "cffconvert")
+TOOLS = ("pre-commit", "check-jsonschema", "twine", "uv", "pipx")
 
 
 @pytest.fixture(scope="session")

@@ -82,3 +82,17 @@ def test_uvx_and_pipx_run_regscribe_from_its_wheels(
     for runner in ((tools / "uvx", "--from", wheel), (tools / "pipx", "run", "--spec", wheel)):
         said = run(*runner, "regscribe", "check", "fdc/series-100", cwd=tmp_path, **variables)
         assert said == "1 map checked: no findings\n"
+
+
+def test_the_citation_is_valid_and_of_this_version(tools: Path, tmp_path: Path) -> None:
+    text = (ROOT / "CITATION.cff").read_text(encoding="utf-8")
+    project = tomllib.loads((ROOT / "pyproject.toml").read_text(encoding="utf-8"))["project"]
+    assert f"\nversion: {project['version']}\n" in text
+    assert f"\nlicense: {project['license']}\n" in text
+    said = run(
+        *(tools / "uvx", "--from", "cffconvert==2.0.0", "cffconvert", "--validate", "-i", ROOT / "CITATION.cff"),
+        cwd=tmp_path,
+        UV_CACHE_DIR=str(tmp_path / "uv"),
+        UV_PYTHON=sys.executable,
+    )
+    assert "valid" in said
