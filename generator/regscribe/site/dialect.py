@@ -1,7 +1,8 @@
 """Markdown as GitHub reads it, rewritten so that Python-Markdown, which builds the site, shows the same.
 
-Escapes become character references, braces too (they would set attributes), headings carry their ids, and blocks
-that follow a paragraph at once get the empty line that Python-Markdown needs.
+Escapes become character references, and so do braces, which would set attributes, and `:::`, which would ask for the
+reference of a Python object. Headings carry their ids, and blocks that follow a paragraph at once get the empty line
+that Python-Markdown needs.
 """
 
 import re
@@ -13,7 +14,7 @@ TOKEN = re.compile(
     r"\\(?P<escaped>[!-/:-@\[-`{-~])"
     r"|(?P<code>(?P<ticks>`+)(?:(?!\n\s*\n).)+?(?<!`)(?P=ticks)(?!`))"
     r"|(?P<image>!?)\[(?P<text>(?:\\.|`[^`\n]*`|\[[^\[\]]*\]|[^\[\]\\])*)\]\((?P<target>[^()\s]*(?:\([^()\s]*\))?[^()\s]*)\)"
-    r"|(?P<brace>[{}])",
+    r"|(?P<mark>[{}]|:(?=::))",
     re.DOTALL,
 )
 """What is read differently, and code, which is left alone, in which nothing of it counts."""
@@ -63,8 +64,8 @@ def inline(text: str, link: Linker) -> str:
     """Rewrite what stands in lines; code is left alone."""
 
     def token(found: re.Match[str]) -> str:
-        if found["escaped"] or found["brace"]:
-            return f"&#{ord(found['escaped'] or found['brace'])};"
+        if found["escaped"] or found["mark"]:
+            return f"&#{ord(found['escaped'] or found['mark'])};"
         if found["code"]:
             return found["code"]
         words, target = TOKEN.sub(token, found["text"]), link(found["target"])
@@ -80,8 +81,6 @@ def _line(line: str, before: str, taken: set[str], silent: frozenset[str]) -> li
         quiet = " data-search-exclude" if anchor in silent else ""
         return [f"{marks} {words.strip()} {{ #{anchor}{quiet} }}"]
     line = line.replace("<details>", '<details markdown="1">')
-    if line.startswith(":::"):  # asks for the reference of a Python object
-        line = f"&#58;{line[1:]}"
     starts, goes_on = BLOCK.match(line), BLOCK.match(before) or before.startswith(" ")
     apart = [""] if starts and before.strip() and not goes_on else []
     return [*apart, NESTED.sub(r"\1\1", line)]

@@ -76,6 +76,14 @@ def test_a_link_goes_where_it_is_told_or_becomes_its_text() -> None:
     assert html(text, lambda _: "") == "<p>See <code>x</code> and y, picture.</p>"
 
 
+@pytest.mark.parametrize(
+    "line", ["::: os.system", "   ::: os.system", "#### ::: os.system", "- ::: os.system", "> ::: os"]
+)
+def test_no_text_asks_for_the_reference_of_a_python_object(line: str) -> None:
+    assert ":::" not in convert(line, same)
+    assert "::: os" in Page(html(line)).text
+
+
 def test_a_silent_section_is_kept_out_of_the_search() -> None:
     assert convert('## <a id="overview"></a>Overview', same, frozenset({"overview"})) == (
         "## Overview { #overview data-search-exclude }"
