@@ -4,6 +4,7 @@ from pathlib import Path
 
 import click
 
+from regscribe.cli.shared.diagnostic_text import count
 from regscribe.cli.shared.exit_codes import USAGE
 from regscribe.cli.shared.live_report import Failure, heading, refused_if
 from regscribe.cli.shared.output import alert, detail, print_json, remark, tell
@@ -37,16 +38,16 @@ def command(*, target: Target, as_json: bool, path: Path | None, force: bool, id
             settings.save(path, text)
             detail(f"wrote {path}")
     failed = {name: saved.error for name, saved in backup.settings() if saved.value is None}
-    count = len(list(backup.settings()))
+    number = len(list(backup.settings()))
     if as_json:
-        print_json(**heading(device, target), file=str(path or ""), settings=count, without_value=list(failed))
+        print_json(**heading(device, target), file=str(path or ""), settings=number, without_value=list(failed))
     elif path is None:
         tell(text)
     else:
-        remark(f"{count} settings of {target} kept in {path}")
+        remark(f"{count(number, 'setting')} of {target} kept in {path}")
     for name, error in failed.items():
         alert(f"{name} holds no value: {error}")
-    return refused_if(0 < len(failed) == count)
+    return refused_if(0 < len(failed) == number)
 
 
 def _refuse_present(path: Path | None, *, force: bool) -> None:

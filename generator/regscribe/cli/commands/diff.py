@@ -1,5 +1,7 @@
 """`regscribe diff`: what differs between devices, backups and the manual's defaults."""
 
+import sys
+
 import click
 
 from regscribe.cli.shared.completion_values import complete_target
@@ -64,7 +66,9 @@ def _show(one: Side, other: Side, found: tuple[SettingDifference, ...], blind: l
         remark(f"{one.name} is a {one.model} ({one.map_id}), {other.name} a {other.model} ({other.map_id})")
     rows = [(each.path, _text(each.left), _text(each.right)) for each in found]
     if rows:
-        show_table(("REGISTER", one.name, other.name), rows)
+        columns = ("REGISTER", one.name, other.name)
+        heads = [] if sys.stdout.isatty() else [columns]  # which value is whose is told on a pipe, too
+        show_table(columns, [*heads, *rows])
     else:
         remark("nothing differs")
     if blind:

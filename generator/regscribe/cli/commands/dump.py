@@ -6,6 +6,7 @@ from typing import Any
 
 import click
 
+from regscribe.cli.shared.diagnostic_text import count
 from regscribe.cli.shared.live_report import heading, plain
 from regscribe.cli.shared.output import print_json, remark, show_table
 from regscribe.cli.shared.target_options import opened, target_options
@@ -67,4 +68,4 @@ def _show(
         show_table(("VALUE", ""), [(one.path, found[one.path].spelled) for one in computed], title="Computed values")
     without = sum(one.error is not None for one in found.values())
     if without:
-        remark(f"{without} of {len(found)} values cannot be had; each says why")
+        remark(f"{without} of {count(len(found), 'value')} cannot be had; each says why")

@@ -7,6 +7,7 @@ from pathlib import Path
 import click
 
 from regscribe import files
+from regscribe.cli.shared.diagnostic_text import count
 from regscribe.cli.shared.exit_codes import REFUSED, UNKNOWN_STATE
 from regscribe.cli.shared.live_report import Failure, code_of, heading, kind_of, reported
 from regscribe.cli.shared.output import print_json, remark, show_table, tell
@@ -114,7 +115,7 @@ def validate(*, target: Target, as_json: bool, name: str, file: Path, beyond_lim
     elif checked.problems:
         raise _refused(given, programs.ProgramRefused(here, checked.problems))
     else:
-        remark(f"{here.name} of the {here.model} can hold it: {len(checked.planned)} registers")
+        remark(f"{here.name} of the {here.model} can hold it: {count(len(checked.planned), 'register')}")
     return REFUSED if checked.problems else 0
 
 
@@ -163,7 +164,7 @@ def write_command(
     if as_json:
         print_json(**heading(device, target), written=done.written, registers=done.total)
     else:
-        remark(f"{here.name}: {done.written} of {done.total} registers written, all read back")
+        remark(f"{here.name}: {done.written} of {count(done.total, 'register')} written, all read back")
     return 0
 
 
@@ -237,8 +238,8 @@ def _fits(given: programs.ProgramFile, here: programs.ProgramSlot) -> None:
 
 def _refused(given: programs.ProgramFile, error: programs.ProgramRefused) -> Failure:
     lines = [f"{given.place(one.where)}: {one}" for one in error.problems]
-    count = f"{len(lines)} mistakes" if len(lines) > 1 else "a mistake"
-    return Failure("\n".join([f"{count}, so nothing is written", *lines]), kind=kind_of(error), code=code_of(error))
+    found = count(len(lines), "mistake") if len(lines) > 1 else "a mistake"
+    return Failure("\n".join([f"{found}, so nothing is written", *lines]), kind=kind_of(error), code=code_of(error))
 
 
 def _show_state(device: BareDevice, target: Target, now: programs.ProgramState, *, as_json: bool) -> None:

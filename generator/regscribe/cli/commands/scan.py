@@ -16,6 +16,9 @@ from regscribe.tools.live.link_names import LinkName
 from regscribe.tools.live.target import named
 from regscribe_runtime import LinkLost
 
+MEANINGS = {1: "the unit does not read holding registers", 2: "the unit has no holding register at that address"}
+"""What exceptions say that a unit answers to a scan."""
+
 
 @click.command(
     epilog="Example: regscribe scan rtu:/dev/ttyUSB0 --bauds 9600,19200 --formats 8N1,8E1\n\n"
@@ -94,6 +97,9 @@ def _show(found: Sequence[scan.Probe], noise: Mapping[str, str], ended: str, *, 
     else:
         rows = [(str(one.unit), str(one.link), one.answer, " or ".join(one.models) or "?") for one in found]
         show_table(("UNIT", "LINK", "ANSWER", "MODEL"), rows)
+        for code, meaning in MEANINGS.items():
+            if any(one.answer == f"exception {code:02d}" for one in found):
+                remark(f"exception {code:02d}: {meaning}; it is there all the same (--address asks for another)")
     for link, said in noise.items():
         alert(f"what comes on {link} is no Modbus (another speed, format or framing?): {said}")
     if ended:

@@ -19,6 +19,9 @@ from regscribe.tools.live.target import Target
 from regscribe_runtime import BareDevice, Register, ValueRefused
 from regscribe_runtime.operations import tasks
 
+SINCE = {"restart": "after its next restart", "apply": "once its settings are applied"}
+"""From when a setting of the line counts, as far as it is not at once."""
+
 
 @click.command(
     help=f"""Write one register: a number (150.5, or with its unit "150.5 °F", which must be the device's own), a member
@@ -87,7 +90,8 @@ def command(  # noqa: PLR0913 - the options of the command
         if spared:
             remark("the device holds it already: its EEPROM was spared")
         elif register.governs is not None:
-            remark("the device talks otherwise from now on: its name must say so")
+            since = SINCE.get(register.governs.since, "from now on")
+            remark(f"the device talks otherwise {since}: its name must say so then")
     return shield.code
 
 

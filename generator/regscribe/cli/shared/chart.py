@@ -5,7 +5,7 @@ from functools import partial
 from typing import Any
 
 HEIGHT = 12
-LEAST_WIDTH, MARGIN = 20, 16
+LEAST_WIDTH, MARGIN = 20, 20
 """Least columns of a curve, and columns of the scale beside it."""
 
 

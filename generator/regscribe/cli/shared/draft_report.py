@@ -88,7 +88,7 @@ def _rows(entries: Iterable[Entry]) -> Iterator[str]:
             yield f"{_place(entry)}: {_called(entry)}: {entry.outcome}: {said or 'no reason is given'}"
         if others := same[len(told) :]:
             first = ", ".join(map(_place, others[:SHOWN_ALIKE]))
-            yield f"  and {len(others)} rows more of which the same is said: {first}, .. {_place(others[-1])}"
+            yield f"  and {count(len(others), 'row')} more of which the same is said: {first}, .. {_place(others[-1])}"
     if any(len(same) > MOST_ALIKE for same in alike.values()):
         yield "--report json tells each row by itself"
 

@@ -9,6 +9,7 @@ from dataclasses import dataclass, field
 from typing import TYPE_CHECKING
 
 from regscribe.cli.shared import output
+from regscribe.cli.shared.diagnostic_text import count
 from regscribe.simulate import Exchange, SimulatedDevice, tell
 from regscribe.visible import safe
 
@@ -16,7 +17,10 @@ if TYPE_CHECKING:
     from rich.table import Table
 
 ROWS = 18
-"""Number of requests that the table shows."""
+"""Most requests that the table shows."""
+
+FRAME = 6
+"""Lines of the table around its requests, and the one on which the cursor waits."""
 
 REFRESH = 0.25
 """Seconds after which the table is drawn anew."""
@@ -55,28 +59,31 @@ class RequestLog:
 
 async def table(requests: RequestLog) -> None:
     """Show the last requests in a table that is drawn anew now and then, until cancelled."""
-    from rich.console import Console  # noqa: PLC0415 - only a terminal needs it
-    from rich.live import Live  # noqa: PLC0415 - as above
+    from rich.live import Live  # noqa: PLC0415 - only a terminal needs it
 
-    with Live(_drawn(requests), console=Console(), auto_refresh=False, transient=True) as live:
+    screen = output.console(sys.stdout)
+    with Live(drawn(requests, screen.height), console=screen, auto_refresh=False, transient=True) as live:
         while True:
             await asyncio.sleep(REFRESH)
-            live.update(_drawn(requests), refresh=True)
+            live.update(drawn(requests, screen.height), refresh=True)
 
 
-def _drawn(requests: RequestLog) -> "Table":
+def drawn(requests: RequestLog, height: int) -> "Table":
+    """The newest requests, as many as a screen of that height holds: what is too high would be cut at its end."""
     from rich.table import Table  # noqa: PLC0415 - only a terminal needs it
     from rich.text import Text  # noqa: PLC0415 - as above
 
     counts = requests.counts
-    title = f"{counts['requests']} requests, {counts['unanswered']} unanswered"
-    drawn = Table("Time", "Unit", "Request", "Registers", "Answer", title=title, expand=True)
-    for when, exchange in tuple(requests.last):
+    title = f"{count(counts['requests'], 'request')}, {counts['unanswered']} unanswered"
+    made = Table("Time", "Unit", "Request", "Registers", "Answer", title=title, expand=True)
+    for column in made.columns:
+        column.no_wrap = True
+    for when, exchange in tuple(requests.last)[-max(height - FRAME, 1) :]:
         told = tell(requests.devices, exchange)
         style = "" if told.good else "red"
         cells = (_clock(when), str(told.unit), told.verb, told.what[:LONGEST], told.outcome)
-        drawn.add_row(*(Text(cell, style=style) for cell in cells))
-    return drawn
+        made.add_row(*(Text(cell, style=style) for cell in cells))
+    return made
 
 
 def _clock(seconds: float) -> str:

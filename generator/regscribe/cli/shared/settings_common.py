@@ -7,6 +7,7 @@ from typing import Any, NamedTuple
 
 import click
 
+from regscribe.cli.shared.diagnostic_text import count
 from regscribe.cli.shared.exit_codes import REFUSED, UNKNOWN_STATE, USAGE
 from regscribe.cli.shared.live_report import Failure, reported
 from regscribe.cli.shared.long_work import Shield, progress
@@ -100,8 +101,9 @@ def show_restored(device: BareDevice, done: settings.Restored, *, dry_run: bool)
         alert(f"left out: {misfit.path}: {misfit.reason}")
     written = len(done.report.changes) - len(done.report.equal)
     verb = "would be written" if dry_run else "written"
-    stays = f", {len(done.fit.stays)} stay with their device" if done.fit.stays else ""
-    remark(f"{written} settings {verb}, {len(done.report.equal)} held already{stays}")
+    many = len(done.fit.stays)
+    stays = f", {many} {'stays' if many == 1 else 'stay'} with {'its' if many == 1 else 'their'} device" if many else ""
+    remark(f"{count(written, 'setting')} {verb}, {len(done.report.equal)} held already{stays}")
 
 
 def plain_restored(device: BareDevice, done: settings.Restored) -> dict[str, Any]:

@@ -47,7 +47,7 @@ def restore(
         state, held = yield from _present(session, driver, backup, include)
         found = fit(backup, driver, state=state, givens=session.givens, include=include, held=held)
         if not partial:
-            _refuse(found)
+            _refuse(found, other_map=backup.origin.map_id != driver.map_id)
         while True:
             try:
                 report = yield from tasks.configure(
@@ -112,13 +112,16 @@ def _equal(register: Register[Any], words: Words, value: object) -> Change:
     return Change(register.path, register.read_view().name, words, words, value, value, Fate.EQUAL)
 
 
-def _refuse(found: BackupFit) -> None:
+def _refuse(found: BackupFit, *, other_map: bool) -> None:
     if not found.strange and not found.misfits:
         return
-    lines = [*found.strange, *(f"{one.path}: {one.reason}" for one in found.misfits[:MOST_NAMED])]
-    if len(found.misfits) > MOST_NAMED:
-        lines.append(f"and {len(found.misfits) - MOST_NAMED} more that do not fit")
-    lines.append(f"{len(found.values)} settings fit: restore those with `partial`, after a look at the plan (dry run)")
+    lines = list(found.strange[:1] if other_map else found.strange)
+    if not other_map:  # from which all else follows
+        lines += [f"{one.path}: {one.reason}" for one in found.misfits[:MOST_NAMED]]
+        if len(found.misfits) > MOST_NAMED:
+            lines.append(f"and {len(found.misfits) - MOST_NAMED} more that do not fit")
+    fit = "1 setting fits: restore it" if len(found.values) == 1 else f"{len(found.values)} settings fit: restore those"
+    lines.append(f"{fit} with `partial`, after a look at the plan (dry run)" if found.values else "no setting fits")
     raise UnfitError("\n".join(lines))
 
 

@@ -73,10 +73,13 @@ def test_files_and_devices_and_the_factory_are_compared_by_name_and_unit(cli: Cl
         cli("backup", oven, "before.yaml")
         running.device.poke("input_filter", 9)
         cli("backup", oven, "after.yaml")
-        rows = ["input_filter", "5 0.1 s", "9 0.1 s"]
+        row = ["input_filter", "5 0.1 s", "9 0.1 s"]
         for left, right in (("before.yaml", "after.yaml"), ("before.yaml", oven), ("factory", "after.yaml")):
             result = cli("diff", left, right)
-            assert (result.code, [cell.strip() for cell in result.out.split("  ") if cell.strip()]) == (1, rows)
+            heads, cells = (
+                [cell.strip() for cell in line.split("  ") if cell.strip()] for line in result.out.splitlines()
+            )
+            assert (result.code, len(heads), heads[0], cells) == (1, 3, "REGISTER", row)
         assert cli("diff", "after.yaml", oven).code == 0
         (found,) = json.loads(cli("diff", oven, "factory", "--json").out)["differences"]
         assert (found["left"], found["right"]) == ({"value": 9, "unit": "0.1 s"}, {"value": 5, "unit": "0.1 s"})
