@@ -13,7 +13,7 @@ from difflib import get_close_matches
 from importlib import import_module
 from pathlib import Path
 from time import perf_counter
-from typing import NoReturn
+from typing import NoReturn, TextIO
 
 import click
 from click.shell_completion import CompletionItem
@@ -190,10 +190,10 @@ def _replace_closed_streams() -> None:
         raise ClosedOutputError(message)
 
 
-def _forget_output() -> None:
-    """Keep the interpreter from flushing standard output once more when it ends."""
+def _forget_output(stream: TextIO | None = None) -> None:
+    """Keep the interpreter from flushing a stream (standard output) once more when it ends."""
     with suppress(OSError, ValueError):  # no file, as in a test
-        os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
+        os.dup2(os.open(os.devnull, os.O_WRONLY), (stream or sys.stdout).fileno())
 
 
 def _refused_by_the_system(error: OSError) -> int:
@@ -201,7 +201,10 @@ def _refused_by_the_system(error: OSError) -> int:
     if error.filename is None:
         _forget_output()
     where = "standard output" if error.filename is None else os.fsdecode(error.filename)
-    click.ClickException(safe(f"{where[:MOST_TEXT]}: {error.strerror or error}")).show()
+    try:
+        click.ClickException(safe(f"{where[:MOST_TEXT]}: {error.strerror or error}")).show()
+    except OSError:  # standard error is what is full: nothing can be said, but for the exit code
+        _forget_output(sys.stderr)
     return OUTPUT if error.filename is None else USAGE
 
 

@@ -219,6 +219,15 @@ def test_a_full_disk_behind_the_output_is_said(arguments: list[str]) -> None:
     assert "Exception ignored" not in found.stderr
 
 
+@pytest.mark.skipif(not Path("/dev/full").exists(), reason="needs a device that is always full")
+@pytest.mark.parametrize("arguments", [["check", "nothing"], ["-v", "check"], ["decode", "16C", "zz"], ["--nope"]])
+def test_a_full_disk_behind_standard_error_has_the_exit_code_of_output(arguments: list[str], tmp_path: Path) -> None:
+    put_map(tmp_path)
+    found = _with_streams("2>/dev/full", arguments, tmp_path)
+    assert found.returncode == 74
+    assert _with_streams(">/dev/full 2>/dev/full", arguments, tmp_path).returncode == 74
+
+
 @pytest.mark.parametrize(
     "arguments", [["check"], ["devices"], ["explain", "RS0401"], ["--version"], ["generate", "--out", "out"]]
 )
