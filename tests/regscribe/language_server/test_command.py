@@ -1,6 +1,7 @@
 """The command that an editor starts."""
 
 import importlib.util
+import logging
 import subprocess
 import sys
 
@@ -8,6 +9,7 @@ import pytest
 from pygls.exceptions import JsonRpcException
 
 from regscribe.cli.app import run
+from regscribe.cli.commands.lsp import TameFormatter
 from regscribe.language_server.server import guarded
 
 
@@ -32,6 +34,11 @@ def test_a_request_that_fails_is_told_in_the_log_and_ends_nothing(caplog: pytest
 
     assert guarded(fails)() is None
     assert "no such thing" in caplog.text
+
+
+def test_what_a_map_hides_does_not_reach_the_log() -> None:
+    record = logging.LogRecord("x", logging.ERROR, "x", 1, "a\x1b[2J\u202eb", (), None)
+    assert TameFormatter().format(record) == r"a\x1b[2J\u202eb"
 
 
 def test_a_refusal_is_no_fault(caplog: pytest.LogCaptureFixture) -> None:

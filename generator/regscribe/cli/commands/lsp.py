@@ -6,6 +6,16 @@ import sys
 
 import click
 
+from regscribe.visible import tame
+
+
+class TameFormatter(logging.Formatter):
+    """Log lines without the invisible characters that a map may hold."""
+
+    def format(self, record: logging.LogRecord) -> str:
+        """Format one record."""
+        return tame(super().format(record))
+
 
 @click.command(
     epilog="Example: regscribe lsp\n\n"
@@ -24,6 +34,9 @@ def command(*, stdio: bool) -> int:  # noqa: ARG001 - editors give it, and there
     from regscribe.language_server.features import serve  # noqa: PLC0415 - 200 ms that only an editor needs
     from regscribe.language_server.server import DEBOUNCE  # noqa: PLC0415 - as above
 
-    logging.basicConfig(stream=sys.stderr, level=logging.WARNING, format="regscribe lsp: %(levelname)s: %(message)s")
+    log = logging.StreamHandler(sys.stderr)
+    log.setFormatter(TameFormatter("regscribe lsp: %(levelname)s: %(message)s"))
+    logging.basicConfig(handlers=[log], level=logging.WARNING)
+    logging.getLogger("pygls").setLevel(logging.ERROR)  # it warns of each usual end
     serve(DEBOUNCE)
     return 0
