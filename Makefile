@@ -14,7 +14,7 @@ OURS := not wire and not interop and not browser
 QUICK := not slow and $(OURS)
 
 .DEFAULT_GOAL := generate
-.PHONY: generate test test-all coverage test-wire test-interop test-browser test-versions check format bench site conformance fuzz mutate sessions lock clean
+.PHONY: generate test test-all coverage test-wire test-interop test-browser test-versions check format bench site pictures conformance fuzz mutate sessions lock clean
 
 generate: $(INSTALLED) ## compile all maps, write the manual pages; only what changed is written
 	@$(BIN)/regscribe generate
@@ -84,6 +84,10 @@ site: $(INSTALLED) ## the pages of docs/, all references and the runtime's names
 
 sessions: $(INSTALLED) ## carry out the sessions of docs/cli.md, settings.md and programs.md anew and write what they print
 	$(BIN)/python tests/regscribe/cli/live/sessions.py
+
+pictures: $(INSTALLED) ## draw the pictures of the README anew; Chromium as for `make test-browser`
+	$(BIN)/python tests/system/browser/install.py
+	$(BIN)/python -m tests.system.browser.pictures
 
 lock: $(INSTALLED) ## pin the newest versions that requirements.in allows
 	$(BIN)/pip install --quiet uv
