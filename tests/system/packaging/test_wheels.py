@@ -36,7 +36,9 @@ def test_a_wheel_holds_its_package_whole_and_nothing_of_another(package: str, wh
     assert expected - names == set()
     assert f"{package}/py.typed" in names
     tops = {name.split("/")[0] for name in names}
-    assert {top for top in tops if not top.endswith(".dist-info")} == {package}
+    assert {top for top in tops if not top.endswith((".dist-info", ".data"))} == {package}
+    shared = {name.partition(".data/")[2].rpartition("/")[0] for name in names if ".data/" in name}
+    assert shared <= {"data/share/man/man1"}
 
 
 def test_the_compiler_carries_maps_and_schemas(wheels: dict[str, Path]) -> None:
