@@ -15,8 +15,6 @@ from regscribe.model.units import KNOWN_UNITS
 from regscribe.schema import inline
 from regscribe.source import Path, SourcePlace
 
-KEY, VALUE, NAME = "key", "value", "name"
-
 
 @dataclass(frozen=True, slots=True)
 class Proposal:

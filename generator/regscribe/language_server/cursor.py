@@ -10,15 +10,14 @@ from regscribe.source import Path, SourceNode, SourcePlace
 class Cursor:
     """A place where something may be written.
 
-    `path` leads to the mapping that gets a key (`at_key`), or to the value. `word` is what is written up to the cursor,
-    `place` all of the word, in the text. `own_line`: nothing but dashes stands before it on its line. `root` is the
+    `path` leads to the mapping that gets a key (`at_key`), or to the value. `place` is that of the word at the cursor.
+    `own_line`: nothing but dashes stands before it on its line. `has_colon`: the key has its colon. `root` is the
     text's tree, in which the word has a mark.
     """
 
     root: SourceNode
     path: Path
     at_key: bool
-    word: str
     place: SourcePlace
     own_line: bool
     has_colon: bool
@@ -43,25 +42,24 @@ def cursor_at(text: str, line: int, column: int) -> Cursor | None:
     found = _marked(root)
     if found is None:
         return None
-    path, at_key, place, written = found
+    path, at_key, place = found
     end = place.end_column - (place.end_line == line)
-    word = written.partition(MARK)[0]
     own_line = not before[: place.column].strip(" -") and place.line == line
     whole = SourcePlace(place.line, place.column, place.end_line, max(end, place.column))
     has_colon = at_key and lines[line][place.end_column :].lstrip().startswith(":")
-    return Cursor(root, path, at_key, word, whole, own_line, has_colon)
+    return Cursor(root, path, at_key, whole, own_line, has_colon)
 
 
-def _marked(root: SourceNode) -> tuple[Path, bool, SourcePlace, str] | None:
-    """Where the mark is: the path, whether in a key, the place of the key or value, and its text."""
+def _marked(root: SourceNode) -> tuple[Path, bool, SourcePlace] | None:
+    """Where the mark is: the path, whether in a key, and the place of the key or value."""
     waiting: list[tuple[SourceNode, Path]] = [(root, ())]
     while waiting:
         node, path = waiting.pop()
         for key, place in (node.keys or {}).items():
             if MARK in key:
-                return path, True, place, key
+                return path, True, place
         if isinstance(node.value, str) and MARK in node.value:
-            return path, False, node.place, node.value
+            return path, False, node.place
         waiting += [(child, (*path, key)) for key, child in (node.members or {}).items()]
         waiting += [(child, (*path, number)) for number, child in enumerate(node.elements or ())]
     return None

@@ -11,7 +11,7 @@ from regscribe.emit import python as driver
 from regscribe.emit.markdown.escape import escape
 from regscribe.emit.python.library_modules import module_path
 from regscribe.emit.python.register_lines import DESCRIPTORS
-from regscribe.emit.words import cases_words, default_words, map_cases, range_words, value_words
+from regscribe.emit.words import cases_words, default_words, map_cases, range_words, span_words, value_words
 from regscribe.model import Kind, Model, Register, RegisterMap, Span, View
 from regscribe.model.address_text import hexadecimal as hex_address
 from regscribe.model.address_text import modicon
@@ -70,11 +70,20 @@ def _addresses(register_map: RegisterMap, register: Register) -> Iterator[str]:
         address = view.address(register.at)
         more = "".join(f" {_printed(others, name, view, address)} |" for name in heads)
         name = escape(view.name or "value")
-        shown = f"{address} to {address + view.words - 1}" if view.words > 1 else str(address)
+        shown = _span(view, address)
         known = modicon(view.space, address)
         yield f"| {name} | {view.space.value} | {view.type.value} | {shown} | {hex_address(address)} | {known} |{more}"
+    if register.block:
+        yield f"\nCounted from the base of the block `{register.block}`."
     if register.aliases:
         yield f"\nAlso at {', '.join(map(str, register.aliases))}."
+
+
+def _span(view: View, address: int) -> str:
+    """The addresses of a view: from the first to the last, or each where they stand apart."""
+    if view.is_apart:
+        return ", ".join(str(address + offset) for offset in view.offsets)
+    return span_words(address, address + view.words - 1)
 
 
 def _printed(notations: list[Notation], name: str, view: View, address: int) -> str:

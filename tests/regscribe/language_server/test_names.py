@@ -1,5 +1,7 @@
 """Definition, references, outline and renaming, across the files of a map."""
 
+import re
+
 import pytest
 
 from regscribe.language_server.files import Files, MapText, Spot
@@ -189,3 +191,13 @@ def test_names_in_a_setpoint_program_are_those_of_its_arrays(at: At) -> None:
     ):
         text = marked(HEAD + program, part, part.index(":") + 3)
         assert where(targets(*at(text))) == [f"one.yaml:{expected}"]
+
+
+def test_words_that_stand_apart_are_told_one_by_one(at: At) -> None:
+    lines = "      - {at: [32, 30], name: Total, type: uint32, access: r}\n      - {at: 31, name: Between}\n"
+    files, file, row, column = at(marked(HEAD + lines, "Total", 1))
+    found = hover(files, file, row, column, compiled(files, file))
+    assert found is not None
+    assert "32" in found[1]
+    assert "30 to 31" not in found[1]
+    assert {"30", "32"} <= set(re.findall(r"\d+", found[1].split("| base |")[1].split("\n")[0]))
