@@ -12,7 +12,7 @@ from regscribe.site.built import Fault
 from regscribe.site.config import configuration
 from regscribe.site.nav import navigation
 from regscribe.site.sources import GUIDES, REFERENCES, map_pages, project_pages, public_address, runtime_pages
-from regscribe.site.staging import BROWSER, stage
+from regscribe.site.staging import BROWSER, Around, stage
 
 FIRST = {(), (GUIDES,)}
 """Sections of a project's own pages that stand before the references; the others stand behind."""
@@ -44,11 +44,14 @@ def make(site: Site, out: Path) -> tuple[int, list[Fault]]:
     pages = [*first, *references, *api, *(page for page in own if page not in first)]
     files |= pictures | {BROWSER: register_browser.page(site.maps).encode(errors="replace")}
     public = public_address(site.project) if site.project else ""
-    staged = stage(pages, files, public, browser=True)
+    project = site.project
+    exists = (lambda path: (project / path).exists()) if project else (lambda _: False)
+    staged, broken = stage(pages, Around(files, public, exists), browser=True)
     menu = navigation(pages, browser=True)
     config = configuration(site.title, menu, url=site.url, repository=public, api=site.api)
     with TemporaryDirectory() as folder:
         found = build(staged, files, config, Path(folder))
+        found = sorted({*broken, *found})
         if not found:
             place(Path(folder), out)
     return len(pages), found

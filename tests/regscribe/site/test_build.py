@@ -66,6 +66,15 @@ def test_a_broken_link_fails_the_build_and_leaves_the_site_of_before(
     assert "register-input_type" in (project / "out/docs/use/index.html").read_text(encoding="utf-8")
 
 
+def test_a_page_that_is_not_there_fails_the_build(project: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    (project / "docs/use.md").write_text("# Use\n\n[gone](gone.md), [map](../maps/acme/oven.yaml)\n")
+    assert run(["site", "--docs", ".", "-o", "out"]) == 1
+    assert capsys.readouterr().out == (
+        "docs/use.md: the link to gone.md leads nowhere: there is no docs/gone.md; name what is there\n"
+    )
+    assert not (project / "out").exists()
+
+
 def test_a_folder_that_is_no_site_is_not_replaced(project: Path, capsys: pytest.CaptureFixture[str]) -> None:
     assert run(["site", "-o", "docs"]) == 1
     assert "docs is there already and is no site of regscribe" in capsys.readouterr().err

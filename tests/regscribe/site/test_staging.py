@@ -7,16 +7,25 @@ import pytest
 from regscribe.site.config import configuration
 from regscribe.site.nav import navigation
 from regscribe.site.sources import project_pages, public_address, runtime_pages
-from regscribe.site.staging import Page, stage
+from regscribe.site.staging import Around, Page, stage
 
+THERE = {"maps/oven.yaml", "schema/map.schema.json", "docs/adr"}
 PUBLIC = "https://code.example/acme/oven"
 
 
 def staged(target: str, *, public: str = "", here: str = "docs/cli.md") -> str:
     """The line of a page with one link, on the site."""
     pages = [Page("README.md", "Home", ""), Page("docs/bus.md", "Buses", ""), Page("gen/docs/README.md", "All", "")]
-    text = stage([*pages, Page(here, "Here", f"[x]({target})")], {"docs/a.svg"}, public, browser=False)[here]
-    return text.rpartition("\n")[2]
+    around = Around({"docs/a.svg"}, public, THERE.__contains__)
+    texts, _ = stage([*pages, Page(here, "Here", f"[x]({target})")], around, browser=False)
+    return texts[here].rpartition("\n")[2]
+
+
+def broken(target: str, *, reference: bool = False) -> list[str]:
+    """What is said of a link that leads nowhere."""
+    page = Page("docs/cli.md", "Here", f"[x]({target})", reference=reference)
+    _, found = stage([page], Around(exists=THERE.__contains__), browser=False)
+    return [str(fault) for fault in found]
 
 
 @pytest.mark.parametrize(
@@ -37,7 +46,9 @@ def test_a_link_inside_leads_to_the_staged_page(target: str, expected: str) -> N
     assert staged(target) == expected
 
 
-@pytest.mark.parametrize("target", ["../schema/map.schema.json", "../maps/acme/oven.yaml#L3", "adr", "../../secret"])
+@pytest.mark.parametrize(
+    "target", ["../schema/map.schema.json", "../maps/oven.yaml#L3", "adr", "../../secret", "/etc/passwd"]
+)
 def test_a_link_to_what_is_not_on_the_site_becomes_its_text(target: str) -> None:
     assert staged(target) == "x"
 
@@ -47,9 +58,21 @@ def test_a_link_to_what_is_not_on_the_site_leads_to_the_public_repository_where_
     assert staged("../../secret", public=PUBLIC) == "x"
 
 
+def test_a_link_of_a_projects_page_to_what_is_nowhere_is_told() -> None:
+    said = "docs/cli.md: the link to {} leads nowhere: there is no {}; name what is there"
+    assert broken("gone.md#x") == [said.format("gone.md#x", "docs/gone.md")]
+    assert broken("../../maps/oven.yaml") == [said.format("../../maps/oven.yaml", "../maps/oven.yaml")]
+    assert broken("../maps/oven.yaml") == broken("https://x.example/gone.md") == broken("#gone") == []
+
+
+def test_a_reference_may_name_a_map_that_is_not_on_the_site() -> None:
+    assert broken("../acme/base.md", reference=True) == []
+
+
 def test_a_reference_has_no_contents_menu_and_a_link_to_the_register_browser() -> None:
     page = Page("gen/acme/oven.md", 'Oven "A": x', "<!-- made -->\n\n# Oven\n\nText.", reference=True)
-    assert stage([page], (), "", browser=True)["gen/acme/oven.md"] == (
+    texts, _ = stage([page], Around(), browser=True)
+    assert texts["gen/acme/oven.md"] == (
         '---\ntitle: "Oven \\"A\\": x"\nhide: ["toc"]\n---\n\n<!-- made -->\n\n# Oven { #oven }\n\n'
         "[Find a register and calculate its values](../../registers.html)\n\nText."
     )
