@@ -10,11 +10,11 @@ COVERING := tests/conformance/test_cases.py tests/regscribe/cli/test_commands.py
 	$(addprefix tests/runtime/,wire registers planning operations driver)
 
 # what needs no programs by others; and of that what takes no more than a few seconds
-OURS := not wire and not interop and not browser
+OURS := not wire and not interop and not browser and not editors
 QUICK := not slow and $(OURS)
 
 .DEFAULT_GOAL := generate
-.PHONY: generate test test-all coverage test-wire test-interop test-browser test-versions check format bench site pictures conformance fuzz mutate sessions lock clean
+.PHONY: generate test test-all coverage test-wire test-interop test-browser test-editors test-versions check format bench site pictures conformance fuzz mutate sessions lock clean
 
 generate: $(INSTALLED) ## compile all maps, write the manual pages; only what changed is written
 	@$(BIN)/regscribe generate
@@ -37,6 +37,10 @@ test-interop: $(INSTALLED) ## let the programs that exports are for read a simul
 test-browser: $(INSTALLED) ## let Chromium show the pages that are made; installs it (Debian package)
 	$(BIN)/python tests/system/browser/install.py
 	$(BIN)/pytest -q -m browser tests/system/browser
+
+test-editors: $(INSTALLED) ## build the extension for Visual Studio Code and let it talk to the language server (npm)
+	$(BIN)/python tests/system/editors/install.py
+	$(BIN)/pytest -q -n 2 -m editors tests/system/editors
 
 test-versions: ## run the tests of runtime and drivers with the oldest and newest pymodbus, on every Python that is here
 	$(PYTHON) tests/repository/versions.py
