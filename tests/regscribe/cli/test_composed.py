@@ -82,7 +82,7 @@ def test_an_unchanged_map_of_several_files_is_not_compiled_again(
     monkeypatch.setattr("regscribe.pipeline.compile_map", None)
     assert " 0 written" in cli("generate").out
     changed(extension)
-    assert cli("generate").code == 1
+    assert cli("generate").code == 70
 
 
 def test_a_map_without_its_base_is_a_finding(cli: Callable[..., Any], extension: Path) -> None:
