@@ -113,12 +113,14 @@ def _listed(what: str, names: Iterable[str]) -> str:
     return f"; {what}: {', '.join(every[:MOST_NAMED])}{more}" if every else ""
 
 
-class Excerpt(NamedTuple):
+class Excerpt:
     """A register that is read in another view than usual, or of which one flag or field is wanted."""
 
-    register: Register[Any]
-    view: str = ""
-    part: str = ""
+    def __init__(self, register: Register[Any], view: str = "", part: str = "") -> None:
+        """Keep the register and the names; a record's field would be taken for a register that it declares."""
+        self.register = register
+        self.view = view
+        self.part = part
 
     @property
     def path(self) -> str:
