@@ -9,13 +9,12 @@ from regscribe.checks.rule import RuleScope
 from regscribe.checks.worked_values import described, hexadecimal
 from regscribe.emit import python as driver
 from regscribe.emit.markdown.escape import escape
+from regscribe.emit.markdown.notations import columns
 from regscribe.emit.python.library_modules import module_path
 from regscribe.emit.python.register_lines import DESCRIPTORS
 from regscribe.emit.words import cases_words, default_words, map_cases, range_words, span_words, value_words
 from regscribe.model import Kind, Model, Register, RegisterMap, Span, View
 from regscribe.model.address_text import hexadecimal as hex_address
-from regscribe.model.address_text import modicon
-from regscribe.model.map import Notation
 from regscribe.reference import (
     Known,
     Meaning,
@@ -61,18 +60,17 @@ def safe_block(text: str) -> str:
 
 def _addresses(register_map: RegisterMap, register: Register) -> Iterator[str]:
     """A table of the views with their addresses in every notation."""
-    spaces = {view.space for view in register.views}
-    others = [one for one in register_map.notations if one.space in spaces]
-    heads = list(dict.fromkeys(one.name for one in others))
-    yield f"| view | space | type | address | hex | Modicon |{''.join(f' {escape(name)} |' for name in heads)}"
-    yield f"|{'---|' * (6 + len(heads))}"
+    notations = {view.space: dict(columns(register_map, view.space)) for view in register.views}
+    heads = list(dict.fromkeys(name for named in notations.values() for name in named))
+    yield f"| view | space | type | address | hex |{''.join(f' {escape(name)} |' for name in heads)}"
+    yield f"|{'---|' * (5 + len(heads))}"
     for view in register.views:
         address = view.address(register.at)
-        more = "".join(f" {_printed(others, name, view, address)} |" for name in heads)
+        named = notations[view.space]
+        more = "".join(f" {escape(named[name](address)) if name in named else ''} |" for name in heads)
         name = escape(view.name or "value")
         shown = _span(view, address)
-        known = modicon(view.space, address)
-        yield f"| {name} | {view.space.value} | {view.type.value} | {shown} | {hex_address(address)} | {known} |{more}"
+        yield f"| {name} | {view.space.value} | {view.type.value} | {shown} | {hex_address(address)} |{more}"
     if register.block:
         yield f"\nCounted from the base of the block `{register.block}`."
     if register.aliases:
@@ -84,10 +82,6 @@ def _span(view: View, address: int) -> str:
     if view.is_apart:
         return ", ".join(str(address + offset) for offset in view.offsets)
     return span_words(address, address + view.words - 1)
-
-
-def _printed(notations: list[Notation], name: str, view: View, address: int) -> str:
-    return next((escape(one.printed(address)) for one in notations if (one.name, one.space) == (name, view.space)), "")
 
 
 def _meaning(register: Register) -> Iterator[str]:
