@@ -89,7 +89,7 @@ def test_spaces_are_found_and_told_apart(open_page: Opener, tmp_path: Path) -> N
     assert len(coils) > 1
     assert page.locator("#results .place").first.inner_text().startswith("coil ")
     assert search(page, "no such thing") == []
-    expect(page.locator("#count")).to_contain_text("Nothing is called or stands at “no such thing”")
+    expect(page.locator("#count")).to_have_text("Nothing is called or stands at “no such thing”")
 
 
 def test_filters_count_and_combine(series_c: Page) -> None:

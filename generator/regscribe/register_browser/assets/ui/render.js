@@ -45,7 +45,7 @@ function render() {
     ...clearButton(chosen),
   )
   showResults(found)
-  document.getElementById("count").textContent = countText(found.length, query)
+  document.getElementById("count").textContent = countText(found.length, query, chosen)
   showOpened()
 }
 
@@ -63,13 +63,18 @@ function showOpened() {
 
 const flat = (nodes) => nodes.flat(Infinity).filter(Boolean)
 
-const countText = (count, query) =>
-  !count && query
-    ? `Nothing is called or stands at “${visibleText(query)}”, as far as the filters let it show`
-    : `${count} of ${browser.items.length} ${browser.items.length === 1 ? "register" : "registers and commands"}`
+const countText = (count, query, chosen) => {
+  if (!count && query) {
+    const limits = isFiltered(chosen) ? ", as far as the filters let it show" : ""
+    return `Nothing is called or stands at “${visibleText(query)}”${limits}`
+  }
+  return `${count} of ${browser.items.length} ${browser.items.length === 1 ? "register" : "registers and commands"}`
+}
+
+const isFiltered = (chosen) => Object.values(chosen).some((values) => values.length)
 
 const clearButton = (chosen) =>
-  Object.values(chosen).some((values) => values.length)
+  isFiltered(chosen)
     ? [
         button(
           "Clear filters",
