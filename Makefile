@@ -14,7 +14,7 @@ OURS := not wire and not interop and not browser and not editors
 QUICK := not slow and $(OURS)
 
 .DEFAULT_GOAL := generate
-.PHONY: generate test test-all coverage test-wire test-interop test-browser test-editors test-versions check format bench site pictures conformance fuzz mutate sessions lock clean
+.PHONY: generate test test-all coverage test-wire test-interop test-browser test-editors test-versions check types types-windows format bench site pictures conformance fuzz mutate sessions lock clean
 
 generate: $(INSTALLED) ## compile all maps, write the manual pages; only what changed is written
 	@$(BIN)/regscribe generate
@@ -36,7 +36,7 @@ test-interop: $(INSTALLED) ## let the programs that exports are for read a simul
 
 test-browser: $(INSTALLED) ## let Chromium show the pages that are made; installs it (Debian package)
 	$(BIN)/python tests/system/browser/install.py
-	$(BIN)/pytest -q -m browser tests/system/browser
+	$(BIN)/pytest -q -n 2 -m browser tests/system/browser
 
 test-editors: $(INSTALLED) ## build the extension for Visual Studio Code and let it talk to the language server (npm)
 	$(BIN)/python tests/system/editors/install.py
@@ -53,13 +53,18 @@ coverage: $(INSTALLED) ## how much of generator/ the quick tests run, against th
 check: $(INSTALLED) ## lint, types of code and generated drivers, drift of generated files, coverage
 	$(BIN)/ruff check
 	$(BIN)/ruff format --check
-	$(BIN)/mypy generator generated/regscribe_devices
-	$(BIN)/mypy --platform win32 generator generated/regscribe_devices
-	$(BIN)/pyright
-	$(BIN)/pyright --pythonplatform Windows
+	$(MAKE) --jobs=2 types types-windows
 	$(BIN)/regscribe generate --check
 	$(BIN)/regscribe man -q -o generator/man && git diff --exit-code --stat generator/man
 	$(MAKE) coverage
+
+types: $(INSTALLED) ## types of code and generated drivers
+	$(BIN)/mypy generator generated/regscribe_devices
+	$(BIN)/pyright
+
+types-windows: $(INSTALLED) ## the same, for Windows
+	$(BIN)/mypy --platform win32 --cache-dir .mypy_cache/win32 generator generated/regscribe_devices
+	$(BIN)/pyright --pythonplatform Windows
 
 format: $(INSTALLED) ## format the code
 	$(BIN)/ruff check --fix
