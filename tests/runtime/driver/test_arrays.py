@@ -456,4 +456,4 @@ def test_the_docs_say_where_the_aliases_of_all_elements_stand(talk: Talking) -> 
 
     # the base view moves by 3 a step, and an element is 2 steps behind the one before
     assert "also at `900 + 6*(i - 1)`" in page
-    assert "| 900 to 912 |" in page
+    assert "| 900 to 912 (0x384 to 0x390) |" in page

@@ -142,7 +142,7 @@ def test_a_view_is_refused_for_what_its_functions_do_not_do(device: Any) -> None
 
 def test_the_command_line_tells_which_views_can_be_written(device: Any) -> None:
     with pytest.raises(TargetError, match=r"the base view of setpoint cannot be written .*; written can"):
-        write._writable(type(device), "setpoint", "base")
+        write._writable(type(device), "setpoint", "1", "base")
 
 
 @pytest.mark.parametrize(

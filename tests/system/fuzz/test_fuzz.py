@@ -78,10 +78,10 @@ class Tally:
     def timed(self, phase: str, work: Callable[..., Any]) -> Callable[..., Any]:
         """Let `work` be counted."""
 
-        def count(*arguments: Any) -> Any:
+        def count(*arguments: Any, **options: Any) -> Any:
             self.reached[phase] += 1
             start = process_time()
-            result = work(*arguments)
+            result = work(*arguments, **options)
             self.slowest[phase] = max(self.slowest.get(phase, 0), process_time() - start)
             return result
 
