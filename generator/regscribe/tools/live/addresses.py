@@ -114,4 +114,6 @@ def _nobody(text: str, registers: Iterable[Placed], model: str) -> str:
     above = min((each for each in every if each[2] > one.address), key=itemgetter(2), default=None)
     beside = [f"{each[0].path} is at {each[1].space} {each[2]}" for each in (below, above) if each]
     told = f": {' and '.join(beside)}" if beside else ""
-    return f"no register of {model} has the address {text}{told}; --raw reads the word there as it stands"
+    which = " or ".join(map(_name, readings(text)))
+    raw = "--raw" if len(readings(text)) == 1 else f"--raw with {which}"
+    return f"no register of {model} has the address {text}{told}; {raw} reads the word there as it stands"

@@ -138,6 +138,12 @@ def test_an_address_of_no_register_names_its_neighbours_and_is_read_raw(read: Ru
     assert found["registers"] == {"input 45 (0x2D, 30046)": {"words": [0]}}
 
 
+def test_the_advice_to_read_a_doubtful_address_raw_says_what_to_write(read: Run) -> None:
+    advice = "--raw with holding:40046 or holding:45 reads the word there as it stands"
+    assert advice in read("40046").err
+    assert read("holding:45", "--raw").code == 0
+
+
 def test_a_number_of_two_notations_is_asked_about_where_no_register_is(read: Run) -> None:
     result = read("40046", "--raw")
     assert (result.code, "write holding:40046 or holding:45" in result.err) == (2, True), result.err
