@@ -10,6 +10,7 @@ from rich.console import Console
 
 from regscribe.cli.commands import scan
 from regscribe.cli.shared.chart import chart
+from regscribe.cli.shared.exit_codes import SILENT
 from regscribe.cli.shared.request_log import RequestLog, drawn
 from regscribe.pipeline import compile_map
 from regscribe.simulate import Exchange, simulate
@@ -56,3 +57,11 @@ def test_a_scan_says_what_the_exception_means(oven: Path, cli: Callable[..., Any
         result = cli("scan", link, "--units", "3", "--address", "9", "--no-names")
     assert "exception 02" in result.out
     assert f"exception 02: {scan.MEANINGS[2]}; it is there all the same" in result.err
+
+
+def test_a_scan_takes_the_address_in_every_notation(cli: Callable[..., Any]) -> None:
+    closed = "tcp:127.0.0.1:1?timeout=0.2"
+    assert cli("scan", closed, "--units", "3", "--address", "0x9").code == SILENT
+    assert "write holding:40010 or holding:9" in cli("scan", closed, "--address", "40010").err
+    for other in ("input:9", "-1", "70000", "nine"):
+        assert f"--address {other}: write that of a holding register" in cli("scan", closed, f"--address={other}").err

@@ -12,9 +12,11 @@ from regscribe.cli.shared.long_work import progress
 from regscribe.cli.shared.output import alert, print_json, refuse, remark, show_table
 from regscribe.cli.shared.target_options import driver_options, silence_loggers
 from regscribe.tools.live import catalogue, scan
+from regscribe.tools.live.addresses import is_address, raw_place
 from regscribe.tools.live.link_names import LinkName
 from regscribe.tools.live.target import named
 from regscribe_runtime import LinkLost
+from regscribe_runtime.values.wire_types import Space
 
 MEANINGS = {1: "the unit does not read holding registers", 2: "the unit has no holding register at that address"}
 """What exceptions say that a unit answers to a scan."""
@@ -33,7 +35,12 @@ MEANINGS = {1: "the unit does not read holding registers", 2: "the unit has no h
 @click.option(
     "--formats", default="", metavar="LIST", help="Character formats to try; without it the link's, else 8N1,8E1."
 )
-@click.option("--address", type=click.IntRange(0, 0xFFFF), default=0, help="The holding register that is asked for.")
+@click.option(
+    "--address",
+    default="0",
+    metavar="ADDRESS",
+    help="The holding register that is asked for: 4049, 0xFD1, holding:4049.",
+)
 @click.option("--all", "every", is_flag=True, help="Try the other speeds, too, when units answered at one.")
 @click.option("--names/--no-names", default=True, help="Ask those that answer what they are (on).")
 @driver_options
@@ -43,7 +50,7 @@ def command(  # noqa: PLR0913 - the options of the command
     units: str,
     bauds: str,
     formats: str,
-    address: int,
+    address: str,
     every: bool,
     names: bool,
     packages: tuple[str, ...],
@@ -59,9 +66,9 @@ def command(  # noqa: PLR0913 - the options of the command
     with reported():
         target = named(link, config, packages)
         catalogue.models(target.packages)  # a package that is none is told before the line is asked for minutes
-        asked = scan.units(units)
+        asked, place = scan.units(units), _holding(address)
         links = scan.settings(target.link, _numbers(bauds), [one for one in formats.split(",") if one])
-        probes = scan.scan(links, asked, address=address, packages=target.packages, names=names, every=every)
+        probes = scan.scan(links, asked, address=place, packages=target.packages, names=names, every=every)
     return _run(probes, links, asked, as_json=as_json)
 
 
@@ -106,6 +113,14 @@ def _show(found: Sequence[scan.Probe], noise: Mapping[str, str], ended: str, *, 
         alert(ended)
     elif not found:
         remark("nobody answers")
+
+
+def _holding(text: str) -> int:
+    """The wire address of a holding register that is written in any notation."""
+    place = raw_place(text) if is_address(text) else None
+    if place is None or place.space is not Space.HOLDING:
+        refuse(f"--address {text}: write that of a holding register, for example 4049, 0xFD1 or holding:4049")
+    return place.address
 
 
 def _numbers(text: str) -> list[int]:
