@@ -141,6 +141,12 @@ class MapServer(LanguageServer):
         self._compiler.shutdown(wait=False, cancel_futures=True)
 
 
+def is_worth_telling(record: logging.LogRecord) -> bool:
+    """Whether a record belongs into the log: pygls logs refusals, which the editor shows, with a traceback."""
+    refused = record.exc_info[1] if record.exc_info else None
+    return not (isinstance(refused, JsonRpcException) and refused.code == lsp.LSPErrorCodes.RequestFailed)
+
+
 def guarded(answer: Callable[..., Any]) -> Callable[..., Any]:
     """A request whose fault is a message in the log and an empty answer, not the end."""
 

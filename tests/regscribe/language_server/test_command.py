@@ -6,11 +6,12 @@ import subprocess
 import sys
 
 import pytest
+from lsprotocol import types as lsp
 from pygls.exceptions import JsonRpcException
 
 from regscribe.cli.app import run
 from regscribe.cli.commands.lsp import TameFormatter
-from regscribe.language_server.server import guarded
+from regscribe.language_server.server import guarded, is_worth_telling
 
 
 def test_without_its_libraries_the_command_names_the_extra(
@@ -49,3 +50,18 @@ def test_a_refusal_is_no_fault(caplog: pytest.LogCaptureFixture) -> None:
     with pytest.raises(JsonRpcException):
         guarded(refuses)()
     assert caplog.text == ""
+
+
+@pytest.mark.parametrize(
+    ("fault", "told"),
+    [
+        (JsonRpcException("not so", lsp.LSPErrorCodes.RequestFailed), False),
+        (JsonRpcException("broken", lsp.ErrorCodes.InternalError), True),
+        (LookupError("no such thing"), True),
+        (None, True),
+    ],
+)
+def test_a_refusal_that_the_editor_shows_is_not_in_the_log(fault: Exception | None, *, told: bool) -> None:
+    information = (type(fault), fault, None) if fault else None
+    record = logging.LogRecord("x", logging.ERROR, "x", 1, "an exception occurred", (), information)
+    assert is_worth_telling(record) is told

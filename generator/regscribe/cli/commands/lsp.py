@@ -32,10 +32,11 @@ def command(*, stdio: bool) -> int:  # noqa: ARG001 - editors give it, and there
         message = "the language server needs pygls: pip install 'regscribe[lsp]'"
         raise click.ClickException(message)
     from regscribe.language_server.features import serve  # noqa: PLC0415 - 200 ms that only an editor needs
-    from regscribe.language_server.server import DEBOUNCE  # noqa: PLC0415 - as above
+    from regscribe.language_server.server import DEBOUNCE, is_worth_telling  # noqa: PLC0415 - as above
 
     log = logging.StreamHandler(sys.stderr)
     log.setFormatter(TameFormatter("regscribe lsp: %(levelname)s: %(message)s"))
+    log.addFilter(is_worth_telling)
     logging.basicConfig(handlers=[log], level=logging.WARNING)
     logging.getLogger("pygls").setLevel(logging.ERROR)  # it warns of each usual end
     serve(DEBOUNCE)
