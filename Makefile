@@ -6,7 +6,7 @@ INSTALLED := .venv/.installed
 
 # the tests that coverage is measured with: quick ones that go through all rooms
 COVERING := tests/conformance/test_cases.py tests/regscribe/cli/test_commands.py \
-	$(addprefix tests/regscribe/,source schema compose lower checks export importers breaking register_browser language_server site) \
+	$(addprefix tests/regscribe/,source schema compose lower checks export importers breaking register_browser language_server site map_format) \
 	$(addprefix tests/runtime/,wire registers planning operations driver)
 
 # what needs no programs by others; and of that what takes no more than a few seconds
@@ -54,6 +54,7 @@ check: $(INSTALLED) ## lint, types of code and generated drivers, drift of gener
 	$(BIN)/ruff check
 	$(BIN)/ruff format --check
 	$(MAKE) --jobs=2 types types-windows
+	$(BIN)/regscribe fmt --check
 	$(BIN)/regscribe generate --check
 	$(BIN)/regscribe man -q -o generator/man && git diff --exit-code --stat generator/man
 	$(MAKE) coverage

@@ -43,6 +43,7 @@ ROOMS = {
     "map_files": set[str](),
     "reference": {"model"},
     "source": {"model"},
+    "map_format": {"source", "visible"},
     "schema": {"model", "source", "map_files"},
     "compose": {"model", "source", "schema", "map_files"},
     "lower": {"model", "reference", "source", "schema"},
@@ -65,13 +66,14 @@ ROOMS = {
     "pipeline": {"model", "source", "schema", "compose", "lower", "checks"},
     "simulate": {"model", "reference", "source", "files", "map_files", "pipeline", WIRE},
     "language_server": {"model", "reference", "source", "schema", "compose", "checks", "emit", "pipeline", "map_files"}
+    | {"map_format"}
     | {"visible"},
     "pytest_plugin": {"model", "simulate"},
     "testing": WHOLE,
     "tools": {"model", "source", "schema", "files", "visible", "emit", "pictures", "map_files", "pipeline"} | WHOLE,
     "cli": {"model", "reference", "source", "schema", "compose", "lower", "checks", "emit", "pictures", "evidence"}
     | {"plugins", "simulate", "pipeline", "files", "tools", "map_files", "visible", "draft", "losses"}
-    | {"planned_model", "breaking", "register_browser", "language_server", "site"}
+    | {"planned_model", "breaking", "map_format", "register_browser", "language_server", "site"}
     | WHOLE,
 }
 """Which other rooms a room may import, besides the vocabulary in `regscribe_runtime.values`."""
@@ -81,7 +83,7 @@ LINK_OF_OPERATIONS = {f"{RUNTIME}.link.{name}" for name in ("links", "timing")}
 """What operations may know of links: what they are like, not how they work."""
 
 LIBRARIES = {
-    "yaml": {"source", "files", "regscribe.importers.shared.read_yaml"},
+    "yaml": {"source", "files", "regscribe.map_format.tokens", "regscribe.importers.shared.read_yaml"},
     "jsonschema": {"schema"},
     "jinja2": {"emit"},
     "click": {"cli"},

@@ -26,6 +26,7 @@ from regscribe.visible import safe, safe_lines
 
 COMMANDS = {
     "check": "Report what is wrong in maps.",
+    "fmt": "Lay out maps in their canonical form.",
     "generate": "Compile maps to drivers, reference docs, test vectors and tests.",
     "explain": "Explain a rule, with a bad and a good example.",
     "new": "Start a map: a commented skeleton that passes `check`.",

@@ -64,8 +64,8 @@ def write(
     stale = stale_files(targets, sorted(tops, key=lambda top: (not top, top)), out, owned)  # "" last
     diffs: list[str] = []
     if check:
-        diffs += [_unified(path, _read(targets[path]), content) for path, content in sorted(changed.items())]
-        diffs += [_unified(path, _read(out / path), None) for path in stale]
+        diffs += [difference(path, _read(targets[path]), content) for path, content in sorted(changed.items())]
+        diffs += [difference(path, _read(out / path), None) for path in stale]
     else:
         _replace({targets[path]: content for path, content in changed.items()})
         for path in stale:
@@ -116,7 +116,7 @@ def _read(target: Path) -> bytes | None:
         raise _refusal(target, error) from None
 
 
-def _unified(path: str, old: bytes | None, new: bytes | None) -> str:
+def difference(path: str, old: bytes | None, new: bytes | None) -> str:
     """Return the unified diff from `old` to `new`; None stands for a file that does not exist."""
     before, after = _lines(old), _lines(new)
     names = "/dev/null" if old is None else f"a/{path}", "/dev/null" if new is None else f"b/{path}"

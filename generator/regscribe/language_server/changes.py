@@ -1,13 +1,15 @@
-"""What an editor asks to be changed: renaming and mends."""
+"""What an editor asks to be changed: renaming, mends and layout."""
 
 from lsprotocol import types as lsp
 from pygls.exceptions import JsonRpcException
 
+from regscribe import source
 from regscribe.language_server import protocol_values as values
 from regscribe.language_server.fixes import fixes
 from regscribe.language_server.navigation import named_at
 from regscribe.language_server.rename import PUBLIC, RenameRefusedError, renamed
 from regscribe.language_server.server import MapServer
+from regscribe.map_format import FormatError, formatted
 
 
 def rename_prepared(server: MapServer, params: lsp.PrepareRenameParams) -> lsp.PrepareRenamePlaceholder | None:
@@ -58,6 +60,20 @@ def mended(server: MapServer, params: lsp.CodeActionParams) -> list[lsp.CodeActi
             mends = fixes(server.session.files, file, one)
             found += [values.action(fix, params.text_document.uri, lines, positions, sent) for fix in mends]
     return found
+
+
+def laid_out(server: MapServer, params: lsp.DocumentFormattingParams) -> list[lsp.TextEdit] | None:
+    """The edit to the canonical form; None for a text that is no YAML, or that would say something else."""
+    file = server.file(params.text_document.uri)
+    document, _ = source.parse(file.text, name=file.path.name) if file else (None, [])
+    if file is None or document is None:
+        return None
+    try:
+        text = formatted(document)
+    except FormatError:
+        return None
+    whole = lsp.Range(lsp.Position(0, 0), lsp.Position(len(file.text.split("\n")), 0))
+    return [lsp.TextEdit(whole, text)] if text != file.text else []
 
 
 def _touch(one: lsp.Range, other: lsp.Range) -> bool:

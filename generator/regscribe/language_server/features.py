@@ -29,6 +29,7 @@ REQUESTS = {
     lsp.TEXT_DOCUMENT_DEFINITION: questions.defined,
     lsp.TEXT_DOCUMENT_REFERENCES: questions.referred,
     lsp.TEXT_DOCUMENT_PREPARE_RENAME: changes.rename_prepared,
+    lsp.TEXT_DOCUMENT_FORMATTING: changes.laid_out,
     lsp.TEXT_DOCUMENT_DOCUMENT_SYMBOL: questions.outlined,
     lsp.WORKSPACE_SYMBOL: questions.found_in_workspace,
     lsp.TEXT_DOCUMENT_CODE_LENS: additions.lensed,

@@ -21,6 +21,7 @@ from .labelled import put_map
 NOBODY = "tcp:127.0.0.1:1?model=O1&unit=1"
 USUAL: dict[str, list[str]] = {
     "check": [],
+    "fmt": [],
     "generate": ["--out", "out"],
     "explain": ["RS0401"],
     "new": ["acme/new"],

@@ -104,7 +104,7 @@ async def test_a_register_tells_its_addresses_when_pointed_at(editor: Editor) ->
     found = await editor.client.text_document_hover_async(lsp.HoverParams(editor.document, place(HEAD, "Setpoint", 2)))
     assert found is not None
     assert isinstance(found.contents, lsp.MarkupContent)
-    assert "| 12 | 0xC | 40013 | 40013 |" in found.contents.value
+    assert "| 12 | 0xC | 40013 |" in found.contents.value
 
 
 @pytest.mark.asyncio
@@ -222,3 +222,15 @@ def test_nothing_but_the_protocol_is_on_standard_output(tmp_path: Path) -> None:
         assert json.loads(rest[:length])["jsonrpc"] == "2.0"
         rest = rest[length:]
     assert done.returncode == 0
+
+
+@pytest.mark.asyncio
+async def test_a_map_is_laid_out_and_a_broken_one_left_alone(editor: Editor) -> None:
+    await editor.write("# of Acme\nmap:   {id: acme/one,title: One}\n")
+    asked = lsp.DocumentFormattingParams(editor.document, lsp.FormattingOptions(2, insert_spaces=True))
+    (edit,) = await editor.client.text_document_formatting_async(asked) or []
+    assert edit.new_text == "# of Acme\nmap: {id: acme/one, title: One}\n"
+    assert edit.range == lsp.Range(lsp.Position(0, 0), lsp.Position(3, 0))
+
+    await editor.write("map:   {id: acme/one\n")
+    assert await editor.client.text_document_formatting_async(asked) is None

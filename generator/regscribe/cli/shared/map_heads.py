@@ -9,6 +9,8 @@ from string import Template
 
 from regscribe.cli.shared.output import refuse
 from regscribe.map_files import data_folder
+from regscribe.map_format import formatted
+from regscribe.source import parse
 
 WORD = re.compile(r"[a-z0-9]+(-[a-z0-9]+)*")
 """A maker or a family: it becomes a folder, a file and (with an `n` before a digit) a Python module."""
@@ -57,9 +59,11 @@ def skeleton(map_id: str, schema: str) -> str:
     template = Template(files("regscribe.cli").joinpath("skeleton.yaml").read_text(encoding="utf-8"))
     names = head_of(map_id)["map"]
     assert isinstance(names, dict)  # noqa: S101 - tells the type checker what head_of makes
-    return template.substitute(
+    text = template.substitute(
         id=map_id, title=names["title"], maker=names["maker"], prefix=names["class_prefix"], schema=schema
     )
+    document, _ = parse(text, name=map_id)
+    return formatted(document) if document else text
 
 
 def schema_for(folder: Path) -> str:
