@@ -142,6 +142,14 @@ def test_no_page_is_wider_than_its_window(open_page: Opener, site: str, place: s
         assert overflow(page) == 0
 
 
+@pytest.mark.parametrize("place", [SERIES_C, FDC])
+def test_the_widest_tables_fit_a_usual_window(open_page: Opener, site: str, place: str) -> None:
+    page = open_page(site + place)
+    wraps = page.locator(".md-typeset__scrollwrap")
+    assert wraps.evaluate_all("them => them.filter(one => one.scrollWidth > one.clientWidth + 1).length") == 0
+    assert wraps.count() > 10
+
+
 def keep(page: Page, place: str, kind: str) -> None:
     if SHOTS:
         name = place.strip("/").replace("/", "-") or "home"
