@@ -1,34 +1,51 @@
-"""`regscribe scan`: which units answer on a line, at which speed, and what they are."""
+"""`regscribe scan`: which units answer on a line, at which speed, and what they are; or which addresses of one."""
 
 import math
 from collections.abc import Iterator, Mapping, Sequence
+from pathlib import Path
 
 import click
+from click.core import ParameterSource
 
 from regscribe.cli.shared.diagnostic_text import count
 from regscribe.cli.shared.exit_codes import INTERRUPTED
 from regscribe.cli.shared.live_report import failure, refused_if, reported
 from regscribe.cli.shared.long_work import progress
 from regscribe.cli.shared.output import alert, print_json, refuse, remark, show_table
+from regscribe.cli.shared.register_scan_run import ScanFiles, run_scan
 from regscribe.cli.shared.target_options import driver_options, silence_loggers
 from regscribe.tools.live import catalogue, scan
 from regscribe.tools.live.addresses import is_address, raw_place
 from regscribe.tools.live.link_names import LinkName
-from regscribe.tools.live.target import named
+from regscribe.tools.live.register_scan import SPACES, ScanLimits, spaces_of, spans_of
+from regscribe.tools.live.target import Target, named, override
 from regscribe_runtime import LinkLost
 from regscribe_runtime.values.wire_types import Space
 
 MEANINGS = {1: "the unit does not read holding registers", 2: "the unit has no holding register at that address"}
 """What exceptions say that a unit answers to a scan."""
 
+PATH = click.Path(path_type=Path, dir_okay=False)
+SPACES_HELP = f"Spaces of the addresses: {', '.join(SPACES)}."
+
 
 @click.command(
     epilog="Example: regscribe scan rtu:/dev/ttyUSB0 --bauds 9600,19200 --formats 8N1,8E1\n\n"
-    "Exit code 0: somebody answers, 1: nobody, 2: wrong usage, 3: the port cannot be opened or vanished, 130: Ctrl-C "
-    "(what was found is printed).",
+    "regscribe scan tcp:10.0.0.7?unit=3 --registers 0..9999 --space holding,input --csv found.csv\n\n"
+    "Exit code 0: somebody (an address) answers, 1: nobody, 2: wrong usage, 3: the port cannot be opened or vanished, "
+    "130: Ctrl-C (what was found is printed, and kept by --resume).",
 )
 @click.argument("link", metavar="LINK")
 @click.option("--units", default="1-247", show_default=True, metavar="LIST", help="Units to ask: 1-20,33.")
+@click.option("--registers", default="", metavar="LIST", help="Scan these addresses of one unit: 0..9999,0x8000.")
+@click.option("--space", "spaces", default="holding", show_default=True, metavar="LIST", help=SPACES_HELP)
+@click.option(
+    "--block", type=click.IntRange(1, 125), default=32, show_default=True, help="Addresses of one request at most."
+)
+@click.option("--pause", type=click.FloatRange(0, 60), default=0.0, metavar="SECONDS", help="Between two requests.")
+@click.option("--max-requests", type=click.IntRange(1), default=10_000, show_default=True, help="End after so many.")
+@click.option("--resume", type=PATH, metavar="FILE", help="Keep what is known in this file, and go on from it.")
+@click.option("--csv", "table", type=PATH, metavar="FILE", help="Write what answers as a table for `regscribe import`.")
 @click.option(
     "--bauds", default="", metavar="LIST", help="Speeds to try on a line; without it the link's, else 9600,19200."
 )
@@ -48,6 +65,13 @@ def command(  # noqa: PLR0913 - the options of the command
     *,
     link: str,
     units: str,
+    registers: str,
+    spaces: str,
+    block: int,
+    pause: float,
+    max_requests: int,
+    resume: Path | None,
+    table: Path | None,
     bauds: str,
     formats: str,
     address: str,
@@ -61,15 +85,35 @@ def command(  # noqa: PLR0913 - the options of the command
 
     LINK is rtu:/dev/ttyUSB0, ascii:/dev/ttyUSB0, tcp:HOST:PORT or a name of the configuration; ?timeout=0.2 says how
     long each unit is waited for.
+
+    With --registers the addresses of one unit (of LINK, or --units 3) are asked for: a block that is refused is halved
+    until the addresses are known that do not answer. Nothing tells whether an address that answers 0 is used.
     """
     silence_loggers()
+    if not registers and (resume or table):
+        refuse("--resume and --csv belong to a scan of addresses: say which by --registers 0..9999")
     with reported():
         target = named(link, config, packages)
+        if registers:
+            wanted = dict.fromkeys(spaces_of(spaces), spans_of(registers))
+            limits = ScanLimits(block=block, pause=pause, most=max_requests)
+            return run_scan(_one_unit(target, units), wanted, limits, ScanFiles(resume, table), as_json=as_json)
         catalogue.models(target.packages)  # a package that is none is told before the line is asked for minutes
         asked, place = scan.units(units), _holding(address)
         links = scan.settings(target.link, _numbers(bauds), [one for one in formats.split(",") if one])
         probes = scan.scan(links, asked, address=place, packages=target.packages, names=names, every=every)
     return _run(probes, links, asked, as_json=as_json)
+
+
+def _one_unit(target: Target, units: str) -> Target:
+    """The target with the one unit that `--units` names, if it is given."""
+    asked = scan.units(units)
+    if len(asked) == 1:
+        return override(target, unit=asked[0])
+    source = click.get_current_context().get_parameter_source("units")
+    if source is not ParameterSource.DEFAULT:
+        refuse("--registers scans the addresses of one unit: write --units 3, or ?unit=3 behind the link")
+    return target
 
 
 def _run(probes: Iterator[scan.Probe], links: Sequence[LinkName], asked: Sequence[int], *, as_json: bool) -> int:

@@ -51,9 +51,9 @@ def findings(diagnostics: Iterable[Diagnostic]) -> Iterator[Piece]:
         yield "\n", ""
 
 
-def count(number: int, noun: str) -> str:
+def count(number: int, noun: str, plural: str = "") -> str:
     """A number with its noun: `1 map`, `2 maps`."""
-    return f"{number} {noun}{'' if number == 1 else 's'}"
+    return f"{number} {noun if number == 1 else plural or f'{noun}s'}"
 
 
 def tally(diagnostics: Iterable[Diagnostic]) -> str:

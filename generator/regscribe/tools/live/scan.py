@@ -10,6 +10,8 @@ from regscribe.tools.live.errors import TargetError
 from regscribe.tools.live.link_names import LinkName
 from regscribe.tools.live.target import Target, link_of, packages_of
 from regscribe_runtime import Link, LinkLost, NoAnswer, RegscribeError, identify
+from regscribe_runtime.errors import STANDARD
+from regscribe_runtime.values.protocol import Protocol
 from regscribe_runtime.values.serial_line import SerialLine
 from regscribe_runtime.wire.requests import READ_HOLDING, Request
 
@@ -19,8 +21,8 @@ USUAL_FORMATS = ("8N1", "8E1")
 SERIAL_SECONDS, TCP_SECONDS = 0.3, 1.0
 """How long a unit may take to answer where nothing else is said; over TCP a gateway with a timeout stands between."""
 
-CHARACTERS = 15 * 11
-"""Bits of a request for one register and of its answer, at the longest character."""
+CHARACTERS, BITS = 13, 11
+"""Characters of a request and of its answer besides the words, and the bits of the longest character."""
 
 GATEWAY = frozenset({10, 11})
 """Exception codes that a gateway answers in place of a unit that is not there."""
@@ -72,11 +74,12 @@ def settings(link: LinkName, bauds: Sequence[int], formats: Sequence[str]) -> tu
     return (link,)
 
 
-def seconds_for(link: LinkName) -> float:
-    """Seconds to wait for one unit: the timeout of the link, else a default, and the time of the characters."""
+def seconds_for(link: LinkName, words: int = 1) -> float:
+    """Seconds to wait for an answer of so many words: the link's timeout, else a default, and the characters' time."""
     if not link.serial:
         return link.timeout or TCP_SECONDS
-    return (link.timeout or SERIAL_SECONDS) + CHARACTERS / (link.baud or USUAL_BAUDS[0])
+    bits = (CHARACTERS + 2 * words) * BITS
+    return (link.timeout or SERIAL_SECONDS) + bits / (link.baud or USUAL_BAUDS[0])
 
 
 def longest(links: Sequence[LinkName], asked: Sequence[int]) -> float:
@@ -145,3 +148,10 @@ def _models(link: Link, unit: int, target: Target) -> tuple[str, ...]:
     except RegscribeError:
         return ()
     return tuple(known.model for known in found)
+
+
+def exception_meaning(code: int, protocol: Protocol | None = None) -> str:
+    """The name and the meaning of an exception code by the map of the device, else by the specification."""
+    own = protocol.exception(code) if protocol else None
+    name = (own.name if own else "") or STANDARD.get(code, "")
+    return f"{name}: {own.meaning}" if own and own.meaning else name
