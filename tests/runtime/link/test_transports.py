@@ -13,7 +13,7 @@ from regscribe_runtime import NoAnswer, Trace, WrongAnswer
 from regscribe_runtime.link import connect
 from regscribe_runtime.wire.requests import Request
 
-from .conftest import FarEnd, frame
+from .conftest import FarEnd
 
 TRANSPORTS = ["tcp", "rtu-tcp", "ascii-tcp", "pty"]
 
@@ -91,18 +91,6 @@ def test_an_ascii_frame_with_a_wrong_check_is_no_answer(far: FarEnd, bad: bytes)
     with pytest.raises((WrongAnswer, NoAnswer)):
         link.call(1, Request(3, 0))
     link.close()
-
-
-def test_a_silence_separates_an_answer_from_the_next_request(far: FarEnd) -> None:
-    sent: list[float] = []
-    far.plan = lambda _: [(0.0, frame(1, b"\x03\x02\x00\x05"))]
-    link = connect.serial(far.path, baud=1200, timeout=2, echo=False, gap=4, trace=lambda one: sent.append(one.seconds))
-    link.open()
-    for _ in range(4):
-        link.call(1, Request(3, 0))
-    link.close()
-    answered, asked = sent[1::2], sent[2::2]
-    assert min(after - before for before, after in zip(answered, asked, strict=False)) >= 4 * 10 / 1200
 
 
 def test_a_strict_device_hears_every_request_because_of_the_silence(athena: RegisterMap) -> None:
