@@ -18,12 +18,12 @@ PAGE = Path(__file__).parents[2] / "docs" / "language.md"
 
 def small(**properties: Any) -> dict[str, Any]:
     """A schema with one definition `thing` that has `properties`."""
-    thing = {"description": "A thing.", "type": "object", "properties": properties, "examples": [{}]}
-    return {"description": "A file.", "type": "object", "properties": {}, "examples": [], "$defs": {"thing": thing}}
+    thing = {"description": "A thing.", "type": "object", "properties": properties, "x-examples": [{}]}
+    return {"description": "A file.", "type": "object", "properties": {}, "x-examples": [], "$defs": {"thing": thing}}
 
 
 def key(**keywords: Any) -> dict[str, Any]:
-    return {"title": "key", "description": "What it does.", "examples": [1], "type": "integer"} | keywords
+    return {"title": "key", "description": "What it does.", "x-examples": [1], "type": "integer"} | keywords
 
 
 def test_the_committed_page_is_what_the_schema_says() -> None:
@@ -99,7 +99,7 @@ def test_every_row_of_every_table_has_all_cells() -> None:
         (key(enum=["a", "b"]), "| `a`, `b` |"),
         (key(type=["integer", "string"]), "| whole number or text |"),
         (key(description="Either a|b."), "| Either a\\|b. |"),
-        ({"$ref": "#/$defs/thing", "examples": [{}]}, "| [thing](#thing) |  |  | A thing. | `{}` |"),
+        ({"$ref": "#/$defs/thing", "x-examples": [{}]}, "| [thing](#thing) |  |  | A thing. | `{}` |"),
     ],
 )
 def test_a_key_is_a_row_of_form_default_meaning_and_example(details: dict[str, Any], cell: str) -> None:

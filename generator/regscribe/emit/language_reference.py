@@ -31,7 +31,7 @@ _BOUNDS = (
 _DEFAULT = " Default: "
 _MAY_BE_NULL = {"type": "null"}
 _INTRODUCTION = """\
-<!-- Generated from schema/map.schema.json by `python -m regscribe.emit.language_reference`; edit the schema. -->
+<!-- Generated from schema/map.language.json by `python -m regscribe.emit.language_reference`; edit the schema. -->
 
 # The map language, format 1
 
@@ -72,9 +72,9 @@ def _section(heading: str, schema: Schema, definitions: Schema) -> Iterator[str]
         yield "\n".join(_table(schema, definitions)) + "\n"
         yield from _borrowed(schema)
     yield from _rules(schema)
-    if schema.get("examples"):
+    if schema.get("x-examples"):
         yield "```yaml"
-        yield from (inline(example) for example in schema["examples"])
+        yield from (inline(example) for example in schema["x-examples"])
         yield "```\n"
 
 
@@ -90,7 +90,7 @@ def _table(schema: Schema, definitions: Schema) -> Iterator[str]:
 
 def _row(key: str, own: Schema, details: Schema, *, required: bool) -> str:
     meaning, _, default = details["description"].partition(_DEFAULT)
-    example = f"`{inline(details['examples'][0])}`"
+    example = f"`{inline(details['x-examples'][0])}`"
     cells = (f"`{key}`", _form(own), "yes" if required else "", default.rstrip("."), meaning, example)
     return f"| {' | '.join(cell.replace('|', chr(92) + '|') for cell in cells)} |"
 

@@ -52,7 +52,7 @@ def _missing(file: MapText, place: SourcePlace) -> Iterator[Fix]:
         for key in dict.fromkeys(grammar.required(schemas)):
             if key not in value:
                 said = known.get(key, {})
-                example = next(iter(said.get("examples", ())), "")
+                example = next(iter(said.get("x-examples", ())), "")
                 yield Fix(f"Add `{key}`", (_added(file, node, f"{key}: {inline(example)}"),))
 
 

@@ -119,7 +119,7 @@ def missing_keys(roots: Sequence[Any], value: Mapping[str, Plain]) -> dict[str, 
 
 
 def _sample(schema: Schema) -> Plain:
-    values = schema.get("examples") or schema.get("enum") or [None]
+    values = schema.get("x-examples") or schema.get("enum") or [None]
     return values[0]
 
 
@@ -181,6 +181,6 @@ def about(schemas: Sequence[Schema]) -> str:
     said = next((schema for schema in schemas if schema.get("description")), None)
     if said is None:
         return ""
-    examples = [f"`{inline(one)}`" for one in said.get("examples", ())[:3]]
+    examples = [f"`{inline(one)}`" for one in said.get("x-examples", ())[:3]]
     shown = f"For example {', '.join(examples)}" if examples else ""
     return "\n\n".join(filter(None, (f"**{said.get('title', '')}**", str(said["description"]), shown)))

@@ -29,7 +29,9 @@ TYPES: dict[str, set[type]] = {
     "boolean": {bool},
     "null": {NoneType},
 }
-_ANNOTATIONS = frozenset({"$schema", "$id", "title", "description", "default", "examples"})
+_ANNOTATIONS = frozenset(
+    {"$schema", "$id", "$comment", "title", "description", "default", "defaultSnippets", "doNotSuggest"}
+)
 
 
 class UnknownKeywordError(Exception):

@@ -11,7 +11,9 @@ if TYPE_CHECKING:
     from jsonschema.protocols import Validator
 
 MAP = "map"
-"""The language of maps; `schema/map.schema.json`."""
+"""The language of maps."""
+_FILES = {MAP: "map.language.json"}
+"""Files with another name than `<language>.schema.json`: the schema of maps for editors is made of this one."""
 
 _BRANCHES = frozenset({"allOf", "then", "else"})
 
@@ -19,7 +21,8 @@ _BRANCHES = frozenset({"allOf", "then", "else"})
 @cache
 def schema_json(language: str = MAP) -> dict[str, Any]:
     """Return the JSON Schema (2020-12) of a language; the caller must not change it."""
-    schema: dict[str, Any] = json.loads((data_folder("schema") / f"{language}.schema.json").read_text(encoding="utf-8"))
+    file = data_folder("schema") / _FILES.get(language, f"{language}.schema.json")
+    schema: dict[str, Any] = json.loads(file.read_text(encoding="utf-8"))
     return schema
 
 

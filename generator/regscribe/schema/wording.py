@@ -17,7 +17,7 @@ def title(schema: Mapping[str, Any]) -> str:
 
 def example(schema: Mapping[str, Any]) -> str:
     """Show an example in the notation of the map; empty if the schema has none."""
-    examples = schema.get("examples", ())
+    examples = schema.get("x-examples", ())
     return f"for example `{inline(examples[0])}`" if examples else ""
 
 

@@ -13,9 +13,11 @@ from hypothesis import strategies as st
 from jsonschema import Draft202012Validator
 
 from regscribe import source
+from regscribe.emit.editor_schema import editor_schema
 from regscribe.schema.quick_check import KEYWORDS, UnknownKeywordError, certainly_valid, compile_schema
 from regscribe.schema.schemas import schema_json, validator
 
+in_editors = compile_schema(editor_schema())
 ROOT = Path(__file__).parents[3]
 KEYS = st.sampled_from(["at", "name", "x-a", "0"])
 PLAIN: tuple[Any, ...] = (None, True, False, -1, 0, 1, 2, 3, Decimal(1), Decimal("1.5"), "", "a", "at", "rw\n", [], {})
@@ -110,7 +112,7 @@ def _unknown(schema: Any) -> set[str]:
     parts = [value for word in named & schema.keys() for value in schema[word].values()]
     parts += [value for word, value in schema.items() if word in {"items", "additionalProperties", "not"}]
     parts += [value for word, value in schema.items() if word in {"allOf", "if", "then", "else"}]
-    notes = {"$schema", "$id", "$defs", "$ref", "title", "description", "default", "examples"}
+    notes = {"$schema", "$id", "$defs", "$ref", "title", "description", "default"}
     own = {word for word in schema.keys() - notes - KEYWORDS.keys() if not word.startswith("x-")}
     return reduce(operator.or_, map(_unknown, parts), own)
 
@@ -130,12 +132,14 @@ def test_a_schema_within_itself_is_followed_as_deep_as_the_value_is() -> None:
 
 @given(st.data())
 @settings(max_examples=60)
-def test_a_map_with_something_odd_in_it_is_judged_as_jsonschema_does(rich_map: Any, data: st.DataObject) -> None:
+def test_a_map_with_something_odd_in_it_is_judged_as_jsonschema_does_and_as_in_editors(
+    rich_map: Any, data: st.DataObject
+) -> None:
     changed = deepcopy(rich_map)
     place = data.draw(st.sampled_from(sorted(_places(changed), key=repr)))
     holder = reduce(operator.getitem, place[:-1], changed)
     holder[place[-1]] = data.draw(st.sampled_from((*PLAIN, 70000, "0..5", [[]], {"at": 1})))
-    assert certainly_valid(changed) == validator().is_valid(changed)
+    assert certainly_valid(changed) == validator().is_valid(changed) == in_editors(changed)
 
 
 def _places(value: Any, path: tuple[Any, ...] = ()) -> list[tuple[Any, ...]]:

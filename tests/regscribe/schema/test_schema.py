@@ -240,7 +240,7 @@ def test_every_key_has_title_description_and_example() -> None:
         f"{name}.{key}"
         for name, schema in _objects()
         for key, details in schema.get("properties", {}).items()
-        if not {"title", "description", "examples"} <= set(_effective(details))
+        if not {"title", "description", "x-examples"} <= set(_effective(details))
     ]
     assert bare == []
 
@@ -258,11 +258,11 @@ def test_every_example_in_the_schema_satisfies_the_schema() -> None:
     whole = schema_json()
     for name, schema in whole["$defs"].items():
         checker = Draft202012Validator({"$ref": f"#/$defs/{name}", "$defs": whole["$defs"]})
-        for example in schema["examples"]:
+        for example in schema["x-examples"]:
             assert checker.is_valid(example), (name, example)
         for key, details in schema.get("properties", {}).items():
             one = Draft202012Validator({**details, "$defs": whole["$defs"]})
-            for example in details.get("examples", []):
+            for example in details.get("x-examples", []):
                 assert one.is_valid(example), (name, key, example)
 
 

@@ -1,4 +1,4 @@
-"""Installs what `make test-editors` needs where it is missing: packages of npm, below `.cache/editors`.
+"""Installs what `make test-editors` needs where it is missing: packages of npm, below `.cache`.
 
 The extension for Visual Studio Code is built in a copy of its folder, with the versions of its lock file. Node and npm
 come from the system (Debian packages, as root with apt-get; else it says what to install and fails).
@@ -31,5 +31,5 @@ def build() -> None:
 
 
 if __name__ == "__main__":
-    install((Consumer("node", programs=NODE),))
+    install((Consumer("node", programs=NODE), Consumer("yaml-language-server", npm=("yaml-language-server@2.0.0",))))
     build()

@@ -112,7 +112,7 @@ def pool() -> dict[str, list[Any]]:
                 found.setdefault(step.key, []).append(step.value)
     for definition in [schema_json(), *schema_json()["$defs"].values()]:
         for key, details in definition.get("properties", {}).items():
-            found.setdefault(key, []).extend(details.get("examples", []))
+            found.setdefault(key, []).extend(details.get("x-examples", []))
     return found
 
 
