@@ -1,6 +1,7 @@
 """A repository of a user with regscribe from its wheels: maps, generated files, their tests, drivers for production."""
 
 import shutil
+import sys
 import venv
 from pathlib import Path
 
@@ -9,6 +10,11 @@ import pytest
 from .distributions import run
 
 pytestmark = pytest.mark.slow
+
+TYPE_CHECKERS = [
+    (sys.executable, "-m", "mypy", "--strict", "--python-executable"),
+    (sys.executable, "-m", "pyright", "--pythonpath"),
+]
 
 
 @pytest.fixture
@@ -61,6 +67,30 @@ def test_without_hypothesis_the_generated_tests_name_what_to_install(
             cwd=repository,
             PYTHONPATH=str(hidden),
         )
+
+
+def test_drivers_of_a_user_and_of_regscribe_come_and_go_one_without_the_other(
+    repository: Path, wheel_folder: Path, tmp_path: Path
+) -> None:
+    production = tmp_path / "production"
+    venv.create(production, with_pip=True, symlinks=True)
+    pip = (production / "bin/python", "-m", "pip")
+    shutil.copytree(repository / "generated", tmp_path / "copy")
+    run(*pip, "install", tmp_path / "copy", "regscribe-devices", cwd=tmp_path, PIP_FIND_LINKS=str(wheel_folder))
+    known = "from regscribe_runtime import known_models\nprint(*sorted({one.map_id for one in known_models()}))"
+    both = run(production / "bin/python", "-c", known, cwd=tmp_path).split()
+    assert {"fdc/series-100"} < {*both}
+    run(*pip, "uninstall", "-y", "regscribe-devices", cwd=tmp_path)
+    use = tmp_path / "use.py"
+    use.write_text(
+        "from regscribe_devices.acme.oven import AcmePlus\n\nreveal_type(AcmePlus.model)\n", encoding="utf-8"
+    )
+    assert run(production / "bin/python", "-c", "import regscribe_devices.acme.oven", cwd=tmp_path) == ""
+    for checker in TYPE_CHECKERS:
+        assert "str" in run(*checker, production / "bin/python", use, cwd=tmp_path)
+    run(*pip, "install", "regscribe-devices", cwd=tmp_path, PIP_FIND_LINKS=str(wheel_folder))
+    run(*pip, "uninstall", "-y", "acme-drivers", cwd=tmp_path)
+    assert {"fdc/series-100"} < {*run(production / "bin/python", "-c", known, cwd=tmp_path).split()}
 
 
 def test_pip_installs_the_drivers_beside_the_runtime_alone(

@@ -31,10 +31,10 @@ def source_files(folder: str, pattern: str) -> Iterator[str]:
 @pytest.mark.parametrize("package", FOLDERS)
 def test_a_wheel_holds_its_package_whole_and_nothing_of_another(package: str, wheels: dict[str, Path]) -> None:
     names = set(zipfile.ZipFile(wheels[package]).namelist())
-    kinds = ("*.py", "*.j2", "*.yaml", "py.typed")
+    kinds = ("*.py", "*.j2", "*.yaml", "*py.typed")
     expected = {f"{package}/{name}" for kind in kinds for name in source_files(SOURCES[package], kind)}
     assert expected - names == set()
-    assert f"{package}/py.typed" in names
+    assert expected & {f"{package}/py.typed", f"{package}/fdc/py.typed"}
     tops = {name.split("/")[0] for name in names}
     assert {top for top in tops if not top.endswith((".dist-info", ".data"))} == {package}
     shared = {name.partition(".data/")[2].rpartition("/")[0] for name in names if ".data/" in name}
