@@ -4,6 +4,7 @@ No test asserts how long something took: machines are busy, and `make bench` mea
 Hypothesis has no deadline, and gives the same examples every time where CI is set.
 """
 
+import gc
 import os
 import signal
 from collections.abc import Iterator
@@ -16,6 +17,16 @@ settings.register_profile("ci", deadline=None, derandomize=True)
 settings.load_profile("ci" if os.environ.get("CI") else "here")
 
 signal.signal(signal.SIGINT, signal.default_int_handler)  # a shell lets what it starts in the background ignore Ctrl-C
+
+gc.disable()  # until all is collected: nothing of that ever goes
+
+
+@pytest.hookimpl(trylast=True)
+def pytest_collection_finish() -> None:
+    """Let garbage be looked for among what tests make only, not among 20,000 tests each time."""
+    gc.freeze()
+    gc.enable()
+
 
 HANG_SECONDS = 120.0
 """Of CPU time, far above what any test that is not slow takes: what is over it is no longer linear, or never ends."""

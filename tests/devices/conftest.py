@@ -5,15 +5,13 @@ from pathlib import Path
 import pytest
 
 from regscribe.model import RegisterMap
-from regscribe.pipeline import compile_map
+from regscribe.simulate.map_cache import find_map
 
 MAPS = Path(__file__).parents[2] / "maps"
 
 
 def _compiled(name: str) -> RegisterMap:
-    compiled = compile_map(MAPS / f"{name}.yaml")
-    assert compiled.map is not None, [f"{each.span.line}: {each.message}" for each in compiled.diagnostics]
-    return compiled.map
+    return find_map(MAPS / f"{name}.yaml")
 
 
 @pytest.fixture(scope="session")

@@ -2,7 +2,6 @@
 
 from collections.abc import Callable, Iterator
 from contextlib import AbstractContextManager, contextmanager
-from functools import cache
 from pathlib import Path
 
 import pytest
@@ -13,6 +12,7 @@ from regscribe.map_files import shipped
 from regscribe.model import Diagnostic, RegisterMap, Severity
 from regscribe.pipeline import compile_map
 from regscribe.simulate import Running, simulate
+from regscribe.simulate.map_cache import find_map
 
 HEAD = """\
 format: 1
@@ -91,11 +91,8 @@ def small() -> Callable[..., str]:
     return text
 
 
-@cache
 def shipped_map(name: str) -> RegisterMap:
-    found = compile_map(shipped() / f"{name}.yaml").map
-    assert found is not None
-    return found
+    return find_map(shipped() / f"{name}.yaml")
 
 
 @pytest.fixture(scope="session", name="compiled")

@@ -14,8 +14,8 @@ import pytest
 
 from regscribe.cli.app import regscribe
 from regscribe.model import RegisterMap
-from regscribe.pipeline import compile_map
 from regscribe.simulate import Service, SimulatedDevice, simulate, start
+from regscribe.simulate.map_cache import find_map
 from regscribe_devices.athena.series_c import Athena16C
 
 ROOT = Path(__file__).parents[2]
@@ -41,8 +41,7 @@ COMMANDS = re.findall(r"^regscribe [^#\n]+", README, re.MULTILINE)
 def test_the_python_of_the_readme_runs(
     code: str, map_id: str, model: str, where: str, givens: dict[str, set[int]]
 ) -> None:
-    register_map = compile_map(ROOT / "maps" / f"{map_id}.yaml").map
-    assert register_map is not None
+    register_map = find_map(ROOT / "maps" / f"{map_id}.yaml")
     assert where in code
     with simulate(register_map, model, unit=1, givens=givens) as running:
         exec(code.replace(where, f'tcp("127.0.0.1", port={running.port}'), {})  # noqa: S102 - our own README
@@ -50,8 +49,7 @@ def test_the_python_of_the_readme_runs(
 
 
 def test_the_bus_of_the_readme_runs() -> None:
-    register_map = compile_map(ROOT / "maps/athena/series-c.yaml").map
-    assert register_map is not None
+    register_map = find_map(ROOT / "maps/athena/series-c.yaml")
     with running_bus(register_map) as (port, oven):
         names: dict[str, object] = {}
         exec(BUS.replace('rtu("/dev/ttyUSB0", baud=9600)', f'tcp("127.0.0.1", port={port})'), names)  # noqa: S102 - our own README

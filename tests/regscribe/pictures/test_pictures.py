@@ -36,7 +36,7 @@ from regscribe.pictures.address_use import address_uses
 from regscribe.pictures.cell_style import looks
 from regscribe.pictures.drawing import WIDTH, Box, Drawing, Text
 from regscribe.pictures.text_width import clean, shorten, width, wrap
-from regscribe.pipeline import compile_map
+from regscribe.simulate.map_cache import find_map
 
 ROOT = Path(__file__).parents[3]
 MAPS = sorted(path for path in (ROOT / "maps").glob("*/*.yaml") if not path.name.endswith(".library.yaml"))
@@ -100,9 +100,7 @@ def hostile() -> RegisterMap:
 def any_map(request: pytest.FixtureRequest, oven: RegisterMap, hostile: RegisterMap) -> RegisterMap:
     if isinstance(request.param, str):
         return {"small": oven, "hostile": hostile}[request.param]
-    compiled = compile_map(request.param)
-    assert compiled.map is not None, compiled.diagnostics
-    return compiled.map
+    return find_map(request.param)
 
 
 def texts(drawing: Drawing) -> list[Text]:
@@ -408,7 +406,7 @@ def test_no_two_paints_of_neighbouring_groups_are_alike() -> None:
 
 
 def test_groups_of_the_largest_map_that_comes_along_have_colours_of_their_own() -> None:
-    maps = [compiled for path in MAPS if (compiled := compile_map(path).map)]
+    maps = list(map(find_map, MAPS))
     largest = max(len(looks(one, address_uses(one)).groups) for one in maps)
     assert len({style.tint(number) for number in range(largest)}) == largest > 12
     assert len({style.outline(number) for number in range(largest)}) == largest

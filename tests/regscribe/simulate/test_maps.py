@@ -5,23 +5,17 @@ from pathlib import Path
 
 import pytest
 
-from regscribe.model import FrameExample, RegisterMap, ValueExample
-from regscribe.pipeline import compile_map
+from regscribe.model import FrameExample, ValueExample
 from regscribe.reference import holds
 from regscribe.simulate import SimulatedDevice
+from regscribe.simulate.map_cache import find_map
 from regscribe_runtime.wire.server_framing import RtuFramer
 
 MAPS = Path(__file__).parents[3] / "maps"
 GIVENS: dict[str, dict[str, set[int]]] = {"fdc/series-100": {"linear_inputs": {16, 17, 18}}, "athena/series-c": {}}
 
 
-def _compiled(name: str) -> RegisterMap:
-    compiled = compile_map(MAPS / f"{name}.yaml")
-    assert compiled.map is not None, compiled.diagnostics
-    return compiled.map
-
-
-FAMILIES = {name: _compiled(name) for name in GIVENS}
+FAMILIES = {name: find_map(MAPS / f"{name}.yaml") for name in GIVENS}
 MODELS = [(name, model.name) for name, family in FAMILIES.items() for model in family.models]
 EXAMPLES = [(name, example) for name, family in FAMILIES.items() for example in family.examples]
 

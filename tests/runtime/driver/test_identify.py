@@ -8,8 +8,8 @@ import pytest
 
 from regscribe.emit import python
 from regscribe.model import RegisterMap
-from regscribe.pipeline import compile_map
 from regscribe.simulate import simulate
+from regscribe.simulate.map_cache import find_map
 from regscribe_runtime import async_tcp, identify, identify_async, known_models, tcp
 
 MAPS = Path(__file__).parents[3] / "maps"
@@ -17,9 +17,7 @@ MAPS = Path(__file__).parents[3] / "maps"
 
 @pytest.fixture(scope="module")
 def series_c() -> RegisterMap:
-    found = compile_map(MAPS / "athena" / "series-c.yaml").map
-    assert found is not None
-    return found
+    return find_map(MAPS / "athena" / "series-c.yaml")
 
 
 def names(found: Any) -> set[str]:
@@ -105,8 +103,7 @@ identify:
 
 
 def test_drivers_of_a_package_that_declares_them_are_known(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    register_map = compile_map(MAPS / "fdc" / "series-100.yaml").map
-    assert register_map is not None
+    register_map = find_map(MAPS / "fdc" / "series-100.yaml")
     (module,) = python.render(register_map).values()
     (tmp_path / "kiln_drivers").mkdir()
     (tmp_path / "kiln_drivers" / "__init__.py").write_text(module.replace('"fdc/series-100"', '"kiln/other"'))

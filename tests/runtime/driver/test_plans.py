@@ -10,7 +10,7 @@ import pytest
 from regscribe.cli.app import run
 from regscribe.map_files import shipped
 from regscribe.model import GivenKind, RegisterMap
-from regscribe.pipeline import compile_map
+from regscribe.simulate.map_cache import find_map
 from regscribe.tools.live import catalogue
 from regscribe_runtime.values.serial_line import SerialLine
 
@@ -103,8 +103,7 @@ def devices(register_map: RegisterMap) -> Iterator[tuple[str, Any]]:
 def test_the_plan_of_a_shipped_model_is_what_its_driver_sends(
     path: Path, words: Any, direct: Any, capsys: pytest.CaptureFixture[str]
 ) -> None:
-    register_map = compile_map(path).map
-    assert register_map is not None
+    register_map = find_map(path)
     lines = [(SerialLine("", 9600), SERIAL), (None, ("--tcp",))]
     for number, (name, driver) in enumerate(devices(register_map)):
         line, settings = lines[number % 2]
@@ -119,8 +118,7 @@ def test_the_plan_of_a_shipped_model_is_what_its_driver_sends(
 def test_the_plan_of_a_group_and_of_a_register_is_what_a_shipped_driver_sends(
     path: Path, words: Any, direct: Any, capsys: pytest.CaptureFixture[str]
 ) -> None:
-    register_map = compile_map(path).map
-    assert register_map is not None
+    register_map = find_map(path)
     name, driver = next(devices(register_map))
     device = driver(direct(words({})), unit=1, **givens_of(register_map))
     groups = {one: members for one, group in device.session.groups.items() if (members := group.registers(driver))}

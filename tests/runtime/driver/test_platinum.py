@@ -7,9 +7,8 @@ from typing import Any
 
 import pytest
 
-from regscribe.model import RegisterMap
-from regscribe.pipeline import compile_map
 from regscribe.simulate import simulate
+from regscribe.simulate.map_cache import find_map
 from regscribe_devices.athena.platinum_c10_m10 import AthenaC10
 from regscribe_devices.athena.platinum_x5000 import AthenaX5000
 from regscribe_runtime import ExceptionAnswer, ValueRefused, identify, known_models, tcp
@@ -18,13 +17,7 @@ MAPS = Path(__file__).parents[3] / "maps"
 PATHS = sorted(path for path in MAPS.glob("*/*.yaml") if not path.name.endswith(".library.yaml"))
 
 
-def compiled(name: str) -> RegisterMap:
-    found = compile_map(MAPS / f"{name}.yaml").map
-    assert found is not None
-    return found
-
-
-FAMILIES = {path.stem: compiled(f"{path.parent.name}/{path.stem}") for path in PATHS}
+FAMILIES = {path.stem: find_map(path) for path in PATHS}
 MODELS = [(family, model.name) for family, found in FAMILIES.items() for model in found.models]
 ALIKE = [{"18C", "25C", "CN8240", "CN8260"}, {"16C", "CN8200"}, {"C10", "M10"}]
 """Models whose identity registers give the same answer (a CN8200 is a 16C under another name)."""

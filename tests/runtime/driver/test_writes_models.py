@@ -8,8 +8,8 @@ from typing import Any
 import pytest
 
 from regscribe.model import Model, RegisterMap
-from regscribe.pipeline import compile_map
 from regscribe.simulate import SimulatedDevice
+from regscribe.simulate.map_cache import find_map
 
 ROOT = Path(__file__).parents[3] / "maps"
 NAMES = sorted(path.relative_to(ROOT) for path in ROOT.glob("*/*.yaml") if not path.stem.endswith(".library"))
@@ -21,9 +21,7 @@ Opened = Callable[[RegisterMap, Model], Any]
 
 @pytest.fixture(scope="module", params=NAMES, ids=str)
 def family(request: pytest.FixtureRequest) -> RegisterMap:
-    found = compile_map(ROOT / request.param).map
-    assert found is not None
-    return found
+    return find_map(ROOT / request.param)
 
 
 @pytest.fixture

@@ -15,10 +15,10 @@ from typing import Any
 import pytest
 
 from regscribe.model import RegisterMap
-from regscribe.pipeline import compile_map
 from regscribe.simulate import SimulatedDevice
 from regscribe.simulate.line.service import Service, Transport
 from regscribe.simulate.line.serving import start
+from regscribe.simulate.map_cache import find_map
 from regscribe_runtime.wire.client_framing import framing_for
 
 MAPS = Path(__file__).parents[3] / "maps"
@@ -27,9 +27,7 @@ Plan = Callable[[bytes], Iterable[tuple[float, bytes]]]
 
 
 def compiled(name: str) -> RegisterMap:
-    found = compile_map(MAPS / name)
-    assert found.map is not None, found
-    return found.map
+    return find_map(MAPS / name)
 
 
 @pytest.fixture(scope="session")

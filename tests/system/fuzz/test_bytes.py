@@ -16,10 +16,10 @@ from hypothesis import strategies as st
 from regscribe.draft import mapping
 from regscribe.files import FileError
 from regscribe.model import RegisterMap
-from regscribe.pipeline import compile_map
 from regscribe.simulate import Service, SimulatedDevice, SimulatorError
 from regscribe.simulate.line.connection import MOST_WAITING, Connection
 from regscribe.simulate.line.server_context import ServerContext
+from regscribe.simulate.map_cache import find_map
 from regscribe.tools.live import catalogue, config, link_names, target
 from regscribe.tools.live.capture import captured
 from regscribe.tools.live.decode import Decoded, Decoder
@@ -57,9 +57,7 @@ pdus = st.one_of(
 
 @cache
 def athena() -> RegisterMap:
-    found = compile_map(ROOT / "maps" / "athena" / "series-c.yaml").map
-    assert found is not None
-    return found
+    return find_map(ROOT / "maps" / "athena" / "series-c.yaml")
 
 
 @cache

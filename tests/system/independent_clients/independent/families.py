@@ -4,13 +4,12 @@ import importlib
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, field
 from fractions import Fraction
-from functools import cache
 from pathlib import Path
 from typing import Any
 
 from regscribe.model import Kind, Model, Register, RegisterMap, Space, WireType, registers_of
-from regscribe.pipeline import compile_map
 from regscribe.simulate import SimulatedDevice
+from regscribe.simulate.map_cache import find_map
 
 MAPS = Path(__file__).parents[4] / "maps"
 LINEAR = {"input_type": 14, "linear_decimal_position": 2, "ieee_register_ordering": 0}
@@ -67,12 +66,9 @@ FAMILIES = (
 )
 
 
-@cache
 def compiled(name: str) -> RegisterMap:
     """Return the map of this id."""
-    found = compile_map(MAPS / f"{name}.yaml")
-    assert found.map is not None, found.diagnostics
-    return found.map
+    return find_map(MAPS / f"{name}.yaml")
 
 
 def steering(model: Model) -> set[str]:
