@@ -5,6 +5,7 @@ import yaml
 from regscribe.source.document import START, SourcePlace
 from regscribe.source.findings import Findings, StopReadingError
 from regscribe.source.rules import SYNTAX
+from regscribe.source.unclosed import find_unclosed
 from regscribe.source.utf8 import place_at
 
 # (a part of the parser's message, our message, our advice)
@@ -44,6 +45,8 @@ _KNOWN = (
 )
 # Noticed at the end of the file or of the line: the place to mend is where the thing starts.
 _BLAMED_ON_START = ("end of stream", "could not find expected ':'")
+_SEPARATOR = "did not find expected ','"
+_COMMA = "write `,` in front of it; a text that contains a quote, `: ` or a bracket needs quotes around it"
 _ELSEWHERE = "check indentation, quotes and brackets around here"
 
 
@@ -51,6 +54,8 @@ def explain(error: yaml.YAMLError, text: str, findings: Findings) -> StopReading
     """Add the parser's `error` in `text` to the findings; the caller raises what this returns."""
     if not isinstance(error, yaml.MarkedYAMLError):
         return findings.stop(SYNTAX, "the file is not YAML", START, advice=_ELSEWHERE)
+    if unclosed := find_unclosed(text):
+        return findings.stop(SYNTAX, unclosed.message, unclosed.place, advice=unclosed.advice)
     problem = error.problem or "not well-formed"
     _, message, advice = next(filter(lambda row: row[0] in problem, _KNOWN), ("", problem, _ELSEWHERE))
     place, start = _place(error.problem_mark), _place(error.context_mark)
@@ -59,12 +64,25 @@ def explain(error: yaml.YAMLError, text: str, findings: Findings) -> StopReading
     beyond = place.line > last.line
     if beyond:
         place, start = last, min(start, last)
+    if _SEPARATOR in problem and not beyond:
+        place = _behind_comma(text, place)
+        return findings.stop(SYNTAX, "a `,` is missing before this", place, advice=_COMMA)
     if not error.context_mark or start == place:
         return findings.stop(SYNTAX, message, place, advice=advice)
     if beyond or any(map(problem.__contains__, _BLAMED_ON_START)):
         return findings.stop(SYNTAX, message, start, advice=advice)
     related = ((error.context or "in what starts here", start),)
     return findings.stop(SYNTAX, message, place, advice=advice, related=related)
+
+
+def _behind_comma(text: str, place: SourcePlace) -> SourcePlace:
+    """Where a comma is missing in front of: of a `:` the word before it, which was meant to be a key."""
+    line = text.split("\n")[place.line]
+    before = line[: place.column].rstrip()
+    if line[place.column : place.column + 1] != ":" or not before:
+        return place
+    column = len(before) - len(before.split()[-1])
+    return SourcePlace(place.line, column, place.line, len(before))
 
 
 def _place(mark: "yaml.Mark | None") -> SourcePlace:

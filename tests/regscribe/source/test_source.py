@@ -119,10 +119,10 @@ def test_codes_are_text_keys_in_decimal() -> None:
         ("%TAG ! tag:example.org,2000:\n---\na: 1\n", "RS0118 1:1"),
         ("a:\n  - b\n\t- c\n", "RS0106 3:1"),
         ("a: 'b\n", "RS0105 1:4"),
-        ("a: [b\nc: d\n", "RS0105 2:2"),
+        ("a: [b\nc: d\n", "RS0105 1:4"),
         ("a: {b: c", "RS0105 1:4"),
         ("a: {b: c\n\n\n", "RS0105 1:4"),
-        ("a: {b: [c,", "RS0105 1:10"),
+        ("a: {b: [c,", "RS0105 1:8"),
         ("a: b: c\n", "RS0105 1:5"),
         ("a: 1\nb\nc: 2\n", "RS0105 2:1"),
         ("a: @b\n", "RS0105 1:4"),
@@ -146,6 +146,58 @@ def test_codes_are_text_keys_in_decimal() -> None:
 )
 def test_what_cannot_be_read_in_one_sense_is_refused_at_its_place(content: str | bytes, expected: str) -> None:
     assert only(content) == expected
+
+
+@pytest.mark.parametrize(
+    ("row", "place", "said", "advice"),
+    [
+        (
+            "{at: 1, name: A, ",
+            "2:5",
+            "the `{` of line 2, column 5 is not closed before line 3",
+            "`}` at the end of line 2",
+        ),
+        (
+            "{at: 1, name: A",
+            "2:5",
+            "the `{` of line 2, column 5 is not closed before line 3",
+            "`}` at the end of line 2",
+        ),
+        ("{at: 1,\n     name: A # }", "2:5", "`{` of line 2, column 5 is not closed before line 4", "end of line 3"),
+        ("{at: 1, enum: {0: a", "2:19", "the `{` of line 2, column 19 is not closed before line 3", "`}}` at the end"),
+        (
+            "{at: [1, 2, ",
+            "2:10",
+            "the `[` of line 2, column 10 is not closed before line 3",
+            "`]}` at the end of line 2",
+        ),
+        ("{at: [1, name: A}", "2:10", "`[` of line 2, column 10 is not closed before the `}` of line 2", "write `]`"),
+        (
+            "{at: 1, name: 'A}\n  - {at: 3, name: 'C'}",
+            "2:19",
+            "the `'` of line 2, column 19 is not closed",
+            "write `'`",
+        ),
+        ("{at: 1, name: A}}", "2:21", "a `}` that closes nothing", "delete it"),
+        ("{at: 1 name: A}", "2:12", "a `,` is missing before this", "write `,` in front of it"),
+        ("{at: 1, enum: {0: a} unit: s}", "2:26", "a `,` is missing before this", "write `,` in front of it"),
+    ],
+)
+def test_what_is_not_closed_is_named_and_not_the_row_below(row: str, place: str, said: str, advice: str) -> None:
+    _, found = parse(f"rows:\n  - {row}\n  - {{at: 2, name: B}}\n", name="m.yaml")
+    assert [f"{one.span.line}:{one.span.column}" for one in found] == [place]
+    assert said in found[0].message
+    assert advice in found[0].help
+
+
+def test_what_is_not_closed_at_the_end_of_a_file_is_named() -> None:
+    _, found = parse("rows:\n  - {at: 1, name: A, \n", name="m.yaml")
+    assert found[0].message == "the `{` of line 2, column 5 is not closed before the end"
+    assert found[0].help == "write `}` at the end of line 2"
+
+
+def test_brackets_that_go_on_without_indentation_are_read() -> None:
+    assert read("{\n'a': [1,\n2],\n'b': 3}\n").data == {"a": [1, 2], "b": 3}
 
 
 def test_a_duplicate_key_names_the_first_one() -> None:

@@ -5,6 +5,7 @@ from typing import Any
 import yaml
 
 from regscribe.importers.shared.tree import Builder, Node, TreeError
+from regscribe.source.unclosed import find_unclosed
 
 Loader: Any = getattr(yaml, "CSafeLoader", yaml.SafeLoader)
 """The parser of libyaml where it is there; only its events are used."""
@@ -23,6 +24,8 @@ def read_yaml(text: str) -> tuple[Node, list[tuple[int, str]]]:
             if isinstance(event, yaml.DocumentEndEvent):
                 break
     except yaml.YAMLError as error:
+        if unclosed := find_unclosed(text):
+            raise TreeError(unclosed.place.line + 1, f"no YAML: {unclosed.message}", unclosed.advice) from None
         mark = getattr(error, "problem_mark", None)
         message = getattr(error, "problem", None) or "it is no YAML"
         raise TreeError((mark.line + 1) if mark else 1, f"no YAML: {message}") from None
