@@ -129,7 +129,7 @@ def test_of_several_controllers_one_must_be_said() -> None:
     [
         ("sensor: []\n", "1: there is no item of the platform modbus_controller"),
         ("a: &a [*a]\n", "1: the alias *a names nothing"),
-        ("a: {b: [", "2: no YAML"),
+        ("a: {b: [", "1: no YAML: the `[` of line 1, column 8 is not closed"),
     ],
 )
 def test_what_is_no_such_configuration_is_one_message(refusal: Callable[..., str], text: str, said: str) -> None:

@@ -198,7 +198,7 @@ def test_of_several_hubs_or_units_one_must_be_said() -> None:
     [
         ("- a\n", "1: there is no hub"),
         ("modbus: text\n", "1: there is no hub"),
-        ("a: [\n", "2: no YAML"),
+        ("a: [\n", "1: no YAML: the `[` of line 1, column 4 is not closed"),
         ("modbus:\n  - " + "[" * 100, "2: values are nested more than 40 deep"),
         ("a: " + "x" * 5_000_000, "1: a value of 5000000 characters"),
         ("a: \0", "1: there is a NUL"),
