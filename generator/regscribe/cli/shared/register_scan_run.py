@@ -14,7 +14,7 @@ from regscribe.cli.shared.live_report import Failure, failure, refused_if
 from regscribe.cli.shared.long_work import progress
 from regscribe.cli.shared.output import hexadecimal, print_json, remark, show_table
 from regscribe.tools.live import scan, scan_files
-from regscribe.tools.live.register_scan import NOISE, RegisterScan, ScanLimits, ScanRecord, Span, runs
+from regscribe.tools.live.register_scan import NOISE, RegisterScan, ScanLimits, ScanRecord, Span, of_modicon, runs
 from regscribe.tools.live.target import Target, link_of
 from regscribe_runtime import LinkLost, NoAnswer
 from regscribe_runtime.values.protocol import Protocol
@@ -52,6 +52,9 @@ def run_scan(
         ended, code = lost.message, lost.exit_code
     _keep(kept, record, name, unit)
     _show(record, target, ended, as_json=as_json)
+    for space in wanted:
+        if (meant := of_modicon(space, wanted[space])) and not record.words.get(space):
+            remark(f"{space}: these are the numbers that are sent; if Modicon's were meant: --registers {meant}")
     if ended and kept.resume:
         remark(f"the same command goes on from {kept.resume}")
     elif kept.table:

@@ -101,6 +101,16 @@ def _address(text: str) -> int | None:
     return next((one.address for one in readings(text) if one.space is None), None)
 
 
+def of_modicon(space: Space, spans: Sequence[Span]) -> str:
+    """The list of wire addresses that spans are if Modicon's numbers were meant; empty where one of them is none."""
+    ends = [(_modicon(space, first), _modicon(space, last)) for first, last in spans]
+    return ",".join(f"{first}..{last}" for first, last in ends) if all(None not in one for one in ends) else ""
+
+
+def _modicon(space: Space, address: int) -> int | None:
+    return next((one.address for one in readings(str(address)) if one.space == space), None)
+
+
 def spaces_of(text: str) -> tuple[Space, ...]:
     """The spaces of a list like `holding,input`; TargetError."""
     names = [one.strip() for one in text.split(",")]

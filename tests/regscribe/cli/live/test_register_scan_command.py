@@ -137,3 +137,12 @@ def test_a_scan_of_units_says_what_exception_02_means(scan: Run) -> None:
     result = scan("--units", "1", "--no-names")
     assert "exception 02" in result.out
     assert "exception 02: the unit has no holding register at that address; it is there all the same" in result.err
+
+
+def test_who_may_have_meant_numbers_of_modicon_is_told_what_these_are_on_the_wire(scan: Run) -> None:
+    result = scan("--registers", "40010..40020,400100", "--space", "holding")
+    assert result.code == 2  # 400100 is no address of the wire
+    told = scan("--registers", "40010..40020,40100", "--space", "holding,coil").err
+    assert "holding: these are the numbers that are sent; if Modicon's were meant: --registers 9..19,99..99\n" in told
+    assert "coil: these" not in told
+    assert "these are the numbers" not in scan("--registers", "40001..40010", "--space", "holding").err
