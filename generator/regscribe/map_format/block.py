@@ -75,12 +75,15 @@ class Printer:
         self._levels.append(Level(kind, source, column, loose))
         self._first_stays = self._after_dash
 
+    def _opens_loose(self, kind: str) -> bool:
+        return kind == "BlockEntry" and self._levels[-1].kind == _MAPPING
+
     def _close_loose(self) -> None:
         if self._levels[-1].loose:
             self._levels.pop()
 
     def _dash(self, token: Token) -> None:
-        if self._levels[-1].kind == _MAPPING:
+        if self._opens_loose(token.kind):
             self._open(_LIST, token.column, loose=True)
         self._entry()
         self._put("-")
@@ -206,7 +209,8 @@ class Printer:
     def _comment_column(self, comment: Comment) -> int:
         """Return the column of what comes next, or of an open collection that the comment stood in."""
         coming = self._coming()
-        if {_MAPPING, _LIST} & set(coming) or (not self._starts_entry() and "StreamEnd" not in coming):
+        opens = {_MAPPING, _LIST} & set(coming) or self._opens_loose(coming[0])
+        if opens or (not self._starts_entry() and "StreamEnd" not in coming):
             return self._column + INDENT
         kept = len(self._levels)
         for _ in range(coming.count("BlockEnd")):

@@ -102,13 +102,13 @@ class Layout:
             blanks = self._random.randint(1, 3)
             return " " * blanks + self._block(depth - 1, parent + 1 + blanks).lstrip(" ")
         head = f" {self._anchor()}{self._end()}\n"
-        return head + self._block(depth - 1, parent + self._random.randint(1, 4))
+        return head + self._block(depth - 1, parent + self._random.randint(0, 4))
 
     def _block(self, depth: int, column: int) -> str:
         dash = self._maybe(0.4)
         rows = []
-        for place in range(self._random.randint(1, 4)):
-            between = self._rows(column) if place else ""
+        for _ in range(self._random.randint(1, 4)):
+            between = self._rows(column)
             key = f"{'? ' * self._maybe(0.04)}{self._key()}:"
             rows.append(f"{between}{' ' * column}{'-' if dash else key}{self._node(depth, column, dash=dash)}")
         return "".join(rows)
