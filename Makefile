@@ -4,17 +4,22 @@ PYTHON ?= python3
 BIN := .venv/bin
 INSTALLED := .venv/.installed
 
-# the tests that coverage is measured with: quick ones that go through all rooms
-COVERING := tests/conformance/test_cases.py tests/regscribe/cli/test_commands.py \
-	$(addprefix tests/regscribe/,source schema compose lower checks export importers breaking register_browser language_server site map_format) \
-	$(addprefix tests/runtime/,wire registers planning operations driver)
+# the tests that coverage is measured with: quick ones that go through all rooms, few of them: measured code takes more than
+# twice its time, and what runs in another process is not measured
+COVERING := tests/regscribe/cli/test_commands.py tests/regscribe/breaking/test_facts.py tests/regscribe/emit/vectors/test_sound_maps.py \
+	$(addprefix tests/regscribe/,source schema compose lower checks export importers language_server site map_format) \
+	$(addprefix tests/runtime/,wire registers planning operations driver) \
+	--ignore=tests/regscribe/language_server/test_stdio.py
+
+# the tests of an installation that CI runs, 40 s; the others of that room take minutes
+PACKAGING := $(addprefix tests/system/packaging/,test_user_repository.py test_published.py test_dockerfile.py)
 
 # what needs no programs by others; and of that what takes no more than a few seconds
 OURS := not wire and not interop and not browser and not editors
 QUICK := not slow and $(OURS)
 
 .DEFAULT_GOAL := generate
-.PHONY: generate test test-all coverage test-wire test-interop test-browser test-editors test-versions check types types-windows format bench site pictures conformance fuzz mutate sessions lock clean
+.PHONY: generate test test-all coverage test-wire test-interop test-browser test-editors test-versions test-packaging check lint drift types types-windows format bench site pictures conformance fuzz mutate sessions lock clean
 
 generate: $(INSTALLED) ## compile all maps, write the manual pages; only what changed is written
 	@$(BIN)/regscribe generate
@@ -42,6 +47,9 @@ test-editors: $(INSTALLED) ## build the extension for Visual Studio Code and let
 	$(BIN)/python tests/system/editors/install.py
 	$(BIN)/pytest -q -n 2 -m editors tests/system/editors
 
+test-packaging: $(INSTALLED) ## install the wheels as users do, and run the tests and type checkers of theirs (pip)
+	$(BIN)/pytest -q -n 2 --dist loadfile -m "slow and $(OURS)" $(PACKAGING)
+
 test-versions: ## run the tests of runtime and drivers with the oldest and newest pymodbus, on every Python that is here
 	$(PYTHON) tests/repository/versions.py
 
@@ -50,14 +58,16 @@ coverage: $(INSTALLED) ## how much of generator/ the quick tests run, against th
 	@$(BIN)/coverage report --format=total
 	@$(BIN)/coverage report >/dev/null
 
-check: $(INSTALLED) ## lint, types of code and generated drivers, drift of generated files, coverage
+check: lint types types-windows drift coverage ## all that CI runs besides tests; --jobs=2 --output-sync for two at a time
+
+lint: $(INSTALLED) ## rules and format of the code
 	$(BIN)/ruff check
 	$(BIN)/ruff format --check
-	$(MAKE) --jobs=2 types types-windows
+
+drift: $(INSTALLED) ## whether maps are laid out alike, and what is generated is that of the maps and commands
 	$(BIN)/regscribe fmt --check
 	$(BIN)/regscribe generate --check
 	$(BIN)/regscribe man -q -o generator/man && git diff --exit-code --stat generator/man
-	$(MAKE) coverage
 
 types: $(INSTALLED) ## types of code and generated drivers
 	$(BIN)/mypy generator generated/regscribe_devices
