@@ -227,6 +227,8 @@ def not_covered(_: RegisterMap, scopes: Scopes) -> Iterator[Finding]:
 @map_rule("RS0473", "Given that nothing needs")
 def given_unused(register_map: RegisterMap, scopes: Scopes) -> Iterator[Finding]:
     """Users must find out every given; one that decides nothing is in vain."""
+    if not register_map.givens:
+        return
     used = {test.given for one in _case_sets(scopes) for condition in one.conditions for test in condition.leaves}
     used |= {block.given for block in register_map.blocks}
     registers = (register for scope in scopes for register in scope.model.registers)

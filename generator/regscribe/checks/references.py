@@ -56,8 +56,12 @@ def limiting(register: Register) -> Iterator[tuple[str, str]]:
     yield from ((path, "its unit depends on") for path in registers_of(register.unit))
 
 
-def depending(scope: RuleScope) -> Iterator[tuple[Register, str, str, Span]]:
-    """Registers that decide something, with who needs them in words, its id and its place."""
+def depending(scope: RuleScope) -> tuple[tuple[Register, str, str, Span], ...]:
+    """Registers that decide something, with who needs them in words, its id and its place; kept for all rules."""
+    return scope.once("depending", lambda: tuple(_depending(scope)))
+
+
+def _depending(scope: RuleScope) -> Iterator[tuple[Register, str, str, Span]]:
     for register in scope.model.registers:
         for path, why in dict.fromkeys((*needed(register), *limiting(register))):
             for other in scope.named((path,)):

@@ -129,10 +129,12 @@ def _known(terms: Any, state: State) -> str:
 
 def parts_of(term: Any) -> Iterator[Any]:
     """A term, or a tuple of the vocabulary that holds terms, and all that it is made of."""
-    yield term
-    if isinstance(term, tuple):
-        for part in term:
-            yield from parts_of(part)
+    waiting = [term]
+    while waiting:
+        part = waiting.pop()
+        yield part
+        if isinstance(part, tuple):
+            waiting += part[::-1]
 
 
 def registers_in(*terms: Any) -> tuple[str, ...]:
