@@ -46,6 +46,7 @@ _KNOWN = (
 # Noticed at the end of the file or of the line: the place to mend is where the thing starts.
 _BLAMED_ON_START = ("end of stream", "could not find expected ':'")
 _SEPARATOR = "did not find expected ','"
+_NO_COMMA = "a `,` is missing before this"
 _COMMA = "write `,` in front of it; a text that contains a quote, `: ` or a bracket needs quotes around it"
 _ELSEWHERE = "check indentation, quotes and brackets around here"
 
@@ -65,8 +66,8 @@ def explain(error: yaml.YAMLError, text: str, findings: Findings) -> StopReading
     if beyond:
         place, start = last, min(start, last)
     if _SEPARATOR in problem and not beyond:
-        place = _behind_comma(text, place)
-        return findings.stop(SYNTAX, "a `,` is missing before this", place, advice=_COMMA)
+        message, place, advice = _without_comma(text, place)
+        start = place
     if not error.context_mark or start == place:
         return findings.stop(SYNTAX, message, place, advice=advice)
     if beyond or any(map(problem.__contains__, _BLAMED_ON_START)):
@@ -75,14 +76,17 @@ def explain(error: yaml.YAMLError, text: str, findings: Findings) -> StopReading
     return findings.stop(SYNTAX, message, place, advice=advice, related=related)
 
 
-def _behind_comma(text: str, place: SourcePlace) -> SourcePlace:
-    """Where a comma is missing in front of: of a `:` the word before it, which was meant to be a key."""
+def _without_comma(text: str, place: SourcePlace) -> tuple[str, SourcePlace, str]:
+    """Say what is wrong where a comma must stand: of a `:` it is missing before its key, if that starts no value."""
     line = text.split("\n")[place.line]
     before = line[: place.column].rstrip()
     if line[place.column : place.column + 1] != ":" or not before:
-        return place
+        return _NO_COMMA, place, _COMMA
     column = len(before) - len(before.split()[-1])
-    return SourcePlace(place.line, column, place.line, len(before))
+    if before[:column].rstrip().endswith((":", "{", "[", ",")):
+        _, message, advice = _KNOWN[0]
+        return message, place, advice
+    return _NO_COMMA, SourcePlace(place.line, column, place.line, len(before)), _COMMA
 
 
 def _place(mark: "yaml.Mark | None") -> SourcePlace:

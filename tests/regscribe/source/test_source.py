@@ -180,6 +180,7 @@ def test_what_cannot_be_read_in_one_sense_is_refused_at_its_place(content: str |
         ),
         ("{at: 1, name: A}}", "2:21", "a `}` that closes nothing", "delete it"),
         ("{at: 1 name: A}", "2:12", "a `,` is missing before this", "write `,` in front of it"),
+        ("{at: 1, name: Main: A}", "2:23", "a `: ` where no key can stand", "in quotes"),
         ("{at: 1, enum: {0: a} unit: s}", "2:26", "a `,` is missing before this", "write `,` in front of it"),
     ],
 )
