@@ -4,6 +4,7 @@ from collections.abc import Iterator
 from dataclasses import dataclass, replace
 from fractions import Fraction
 from functools import partial
+from typing import NamedTuple
 
 from regscribe.checks.rule import RuleScope
 from regscribe.checks.worked_values import compare, example_rule, hexadecimal, in_example, judged
@@ -42,6 +43,7 @@ class FrameFields:
     count: int | None = None
     words: tuple[int, ...] | None = None
     carried: tuple[int, ...] = ()
+    exception: int = 0
 
 
 def parse(data: bytes, *, answer: bool, long: bool = False) -> FrameFields:
@@ -53,7 +55,7 @@ def parse(data: bytes, *, answer: bool, long: bool = False) -> FrameFields:
     head = FrameFields(unit, function & ~EXCEPTION_BIT if answer else function)
     if answer and function & EXCEPTION_BIT:
         expect_bytes(pdu[1:], 1)
-        return head
+        return replace(head, exception=pdu[1])
     return _answer(head, pdu, long) if answer else _request(head, pdu, long)
 
 
@@ -142,9 +144,7 @@ def frame_values(example: FrameExample, scope: RuleScope) -> Iterator[str]:
     except MalformedError:
         return
     known = in_example(scope, (*example.state, *example.writes))
-    same = {frame.function, *(code for codes in scope.register_map.alike if frame.function in codes for code in codes)}
-    spaces: set[Space] = {SPACES[code] for code in same if code in SPACES}
-    spaces = {Space.ENRON} if _is_long(example, scope) else spaces
+    spaces = _spaces(example, frame, scope)
     for path, value in example.writes:
         register = scope.registers.get(path)
         if register is None:
@@ -154,6 +154,43 @@ def frame_values(example: FrameExample, scope: RuleScope) -> Iterator[str]:
         elif problem := _value(example, frame, register, value, known, spaces):
             yield f"`{path}`: {problem}"
     yield from _command(example, frame, scope)
+
+
+def _spaces(example: FrameExample, frame: FrameFields, scope: RuleScope) -> set[Space]:
+    """The spaces that the function of a frame reads or writes."""
+    same = {frame.function, *(code for codes in scope.register_map.alike if frame.function in codes for code in codes)}
+    return {Space.ENRON} if _is_long(example, scope) else {SPACES[code] for code in same if code in SPACES}
+
+
+class Addressed(NamedTuple):
+    """A register that a frame asks for or carries: the view that it uses, and its words as far as they are in it."""
+
+    register: Register
+    view: View
+    words: tuple[int, ...]
+
+
+def addressed(example: FrameExample, scope: RuleScope) -> tuple[FrameFields, tuple[Addressed, ...]] | None:
+    """The fields of a frame and what always exists at its addresses, in their order; None if it is malformed."""
+    try:
+        frame = _parsed(example, _is_long(example, scope))
+    except MalformedError:
+        return None
+    start = frame.address if frame.address is not None else example.address
+    if start is None:
+        return frame, ()
+    count, spaces = len(frame.carried) or frame.count or 0, _spaces(example, frame, scope)
+    named = dict(example.writes)
+    found: dict[str, tuple[int, Addressed]] = {}
+    for register in scope.model.registers:
+        if register.block or (register.path not in named if named else not register.when.always):
+            continue
+        for view, address in _places(register, example.view):
+            offset = address - view.space.within(start)
+            if view.space in spaces and view.allows(frame.function) and 0 <= offset <= count - view.words:
+                words = frame.carried[offset : offset + view.words]
+                found.setdefault(register.path, (offset, Addressed(register, view, words)))
+    return frame, tuple(one for _, one in sorted(found.values(), key=lambda each: each[0]))
 
 
 def _value(

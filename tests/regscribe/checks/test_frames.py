@@ -21,7 +21,7 @@ from regscribe_runtime.wire.packing import MalformedError
         ("01 05 00 14 00 00", True, FrameFields(1, 5, 20, 1, (0,), (0,))),
         ("01 0F 00 14 00 0A 02 CD 01", False, FrameFields(1, 15, 20, 10, *[(1, 0, 1, 1, 0, 0, 1, 1, 1, 0)] * 2)),
         ("01 0F 00 14 00 0A", True, FrameFields(1, 15, 20, 10)),
-        ("01 83 02", True, FrameFields(1, 3)),
+        ("01 83 02", True, FrameFields(1, 3, exception=2)),
         ("01 07", False, FrameFields(1, 7)),
     ],
 )

@@ -108,6 +108,33 @@ def test_examples_are_read_with_the_state_that_they_name(at: At) -> None:
     assert [said for _, said in read_examples(file, found)] == ["05 E1 = 150.5 °C"]
 
 
+@pytest.mark.parametrize(
+    ("frame", "facts", "said"),
+    [
+        (
+            "07 03 00 0A 00 03",
+            "function: 3, address: 10, count: 3",
+            "to unit 7, function 03: mode, fahrenheit, setpoint",
+        ),
+        ("07 06 00 0C 05 E1", "function: 6, words: [1505], with: {fahrenheit: 0}", "setpoint = 150.5 °C"),
+        (
+            "07 06 00 0C 05 E1",
+            "function: 6, writes: {setpoint: 150.5}, answer: true",
+            "from unit 7, function 06: setpoint",
+        ),
+        ("07 03 04 00 01 00 00", "function: 3, address: 10, answer: true", "mode = 1 = manual, fahrenheit = 0"),
+        ("07 03 02 00 01", "function: 3, answer: true", "from unit 7, function 03"),
+        ("07 83 02", "function: 0x83, answer: true", "from unit 7, function 03: exception 2"),
+    ],
+)
+def test_a_worked_frame_is_read(at: At, frame: str, facts: str, said: str) -> None:
+    example = f"examples:\n  - {{source: '9', frame: {frame}, crc: false, unit: 7, {facts}}}\n"
+    files, file, _, _ = at(HEAD + example)
+    compiled = compile_map(file.path, files.unsaved)
+    assert compiled.map is not None, compiled.diagnostics
+    assert said in next(text for _, text in read_examples(file, compiled.map))
+
+
 def test_addresses_are_told_in_other_notations_where_they_stand(at: At) -> None:
     files, file, _, _ = at(HEAD)
     found = compile_map(file.path, files.unsaved).map
