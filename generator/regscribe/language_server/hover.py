@@ -1,6 +1,7 @@
 """What stands at a position: the meaning of a key, of a name, or all about a register."""
 
 from regscribe.language_server import grammar
+from regscribe.language_server.condition_facts import condition_text
 from regscribe.language_server.cursor import path_at
 from regscribe.language_server.files import Files, MapText
 from regscribe.language_server.meaning import meaning
@@ -30,7 +31,8 @@ def hover(
         home = files.get(one.spot.file)
         if home is not None:
             said = register_text(home, one.node, compiled) if one.kind == REGISTER else ""
-            return place, said or meaning(one, home)
+            told = condition_text(compiled, one.name) if one.kind == "condition" and compiled else ""
+            return place, said or "\n\n".join(filter(None, (meaning(one, home), told)))
     return None
 
 

@@ -154,6 +154,15 @@ def test_an_enum_shows_its_codes(at: At) -> None:
     assert "0: automatic, 1: manual" in found[1]
 
 
+def test_a_condition_shows_what_it_means_and_where_its_registers_stand(at: At) -> None:
+    line = "      - {at: 13, name: X, when: manual_mode, models: [B2]}\n"
+    files, file, row, column = at(marked(HEAD + line, "when: manual_mode", 8))
+    found = hover(files, file, row, column, compiled(files, file))
+    assert found is not None
+    assert "manual_mode: {mode: manual}" in found[1]
+    assert "B2: Holds when mode is manual (1) (`mode`: holding 10)." in found[1]
+
+
 def test_a_register_shows_what_it_compiles_to(at: At) -> None:
     files, file, line, column = at(marked(HEAD, "at: 12", 4))
     found = hover(files, file, line, column, compiled(files, file))
