@@ -19,7 +19,7 @@ from .matrix_maps import Seed
 from .suite import Json, diagnose, errors_of
 
 ROOT = Path(__file__).parents[2]
-SCHEMA = json.loads((ROOT / "schema" / "map.schema.json").read_text("utf-8"))
+SCHEMA = json.loads((ROOT / "schema" / "map.language.json").read_text("utf-8"))
 
 DOCS_ONLY = frozenset(
     "symbol printed description source inferred name endurance persistence poll good_for static mandatory".split()  # noqa: SIM905

@@ -12,7 +12,7 @@ from jsonschema import Draft202012Validator
 
 from .suite import Json
 
-SCHEMA: Json = json.loads((Path(__file__).parents[2] / "schema" / "map.schema.json").read_text("utf-8"))
+SCHEMA: Json = json.loads((Path(__file__).parents[2] / "schema" / "map.language.json").read_text("utf-8"))
 ROOT = "map file"
 """What the object around everything is called here."""
 SAME = frozenset({"register", "each", "set_each", "variant", "view"})
