@@ -12,7 +12,7 @@ from regscribe.cli.shared.live_report import refused_if, reported
 from regscribe.cli.shared.output import print_json, raised_as, remark, tell
 from regscribe.cli.shared.standard_input import STDIN
 from regscribe.cli.shared.target_options import base_option, driver_options
-from regscribe.tools.live import capture, catalogue, givens, names, target, value_text
+from regscribe.tools.live import capture, catalogue, givens, names, stated_words, target, value_text
 from regscribe.tools.live import config as configuration
 from regscribe.tools.live.decode import Decoded, DecodedItem, Decoder
 from regscribe.tools.live.errors import TargetError
@@ -31,7 +31,7 @@ PAIR = 2
     "Exit code 0: all frames are sound, 1: one is not, or there is none, 2: wrong usage.",
 )
 @click.argument("model", shell_complete=complete_model)
-@click.argument("digits", nargs=-1, metavar="[HEX]...")
+@click.argument("digits", nargs=-1, metavar="[HEX|ADDRESS=WORD]...")
 @click.option("--log", type=click.File(encoding="utf-8", errors="replace"), help="A captured log; - is standard input.")
 @click.option("--framing", type=click.Choice(FRAMINGS), help="Take all frames for this kind, whatever they look like.")
 @click.option("--addressing", type=click.Choice(ADDRESSINGS), default="modbus", help="jbus: counted from 1.")
@@ -58,12 +58,16 @@ def command(  # noqa: PLR0913 - the options of the command
     MODEL is one that `regscribe devices` lists. Digits: one frame in pairs, or a frame in each argument. In a log, each
     line is searched for a frame; answers are held against the requests before them. Without HEX and --log, or with -
     in their place, standard input is read.
+
+    4095=0x24 tells what a word means that was read at an address (or setpoint=1505, of a register); a value of
+    several words has them with commas, 8004=0x4316,0x8000.
     """
     with reported():
         driver = catalogue.find(model, (*packages, *configuration.load(config).packages)).driver
         decoder = _decoder(driver, state, given, bases, first=int(addressing == "jbus"))
+        stated = _stated(decoder, digits)
     lines = _lines(digits) if digits and digits != (STDIN,) else log or sys.stdin
-    decoded = [
+    decoded = stated or [
         (part.line, decoder.feed(frame, part.direction))
         for part in capture.captured(lines, framing)
         for frame in part.frames
@@ -93,6 +97,21 @@ def _decoder(
         blocks = [block._replace(chain=None) for block in driver._blocks]  # noqa: SLF001 (its facts)
         known_bases = bases_in(driver.map_id, blocks, bases)
     return Decoder(driver, givens=stated, state=known, first=first, bases=known_bases)
+
+
+def _stated(decoder: Decoder, texts: Sequence[str]) -> list[tuple[int, Decoded]]:
+    """What words mean that are given with their addresses; nothing where none is. TargetError where only some are."""
+    if not any("=" in text for text in texts):
+        return []
+    if frames := [text for text in texts if "=" not in text]:
+        message = f"`{frames[0][:40]}` is no ADDRESS=WORD: give frames in a command of their own"
+        raise TargetError(message)
+    found = []
+    for line, text in enumerate(texts, 1):
+        asked, answered = stated_words.exchange(decoder.driver, text)
+        decoder.feed(asked)
+        found.append((line, decoder.feed(answered)))
+    return found
 
 
 def _lines(digits: Sequence[str]) -> list[str]:

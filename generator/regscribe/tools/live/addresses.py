@@ -115,5 +115,5 @@ def _nobody(text: str, registers: Iterable[Placed], model: str) -> str:
     beside = [f"{each[0].path} is at {each[1].space} {each[2]}" for each in (below, above) if each]
     told = f": {' and '.join(beside)}" if beside else ""
     which = " or ".join(map(_name, readings(text)))
-    raw = "--raw" if len(readings(text)) == 1 else f"--raw with {which}"
+    raw = "read --raw" if len(readings(text)) == 1 else f"read --raw with {which}"
     return f"no register of {model} has the address {text}{told}; {raw} reads the word there as it stands"

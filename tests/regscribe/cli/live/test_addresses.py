@@ -131,7 +131,7 @@ def test_an_address_of_no_register_names_its_neighbours_and_is_read_raw(read: Ru
     assert result.code == 2
     assert (
         "no register of P1 has the address 45: order is at holding 42 and near is at holding 48; "
-        "--raw reads the word there as it stands" in result.err
+        "read --raw reads the word there as it stands" in result.err
     )
     assert read("45", "--raw").out == "holding 45 (0x2D, 40046)  0000\n"
     found = json.loads(read("input:45", "--raw", "--json").out)
@@ -139,7 +139,7 @@ def test_an_address_of_no_register_names_its_neighbours_and_is_read_raw(read: Ru
 
 
 def test_the_advice_to_read_a_doubtful_address_raw_says_what_to_write(read: Run) -> None:
-    advice = "--raw with holding:40046 or holding:45 reads the word there as it stands"
+    advice = "read --raw with holding:40046 or holding:45 reads the word there as it stands"
     assert advice in read("40046").err
     assert read("holding:45", "--raw").code == 0
 

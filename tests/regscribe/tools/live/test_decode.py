@@ -10,6 +10,7 @@ from regscribe.tools.live import catalogue
 from regscribe.tools.live.capture import RECEIVED, SENT, captured
 from regscribe.tools.live.decode import Decoded, Decoder
 from regscribe.tools.live.errors import TargetError
+from regscribe.tools.live.stated_words import exchange
 from regscribe_runtime.wire.capture import frames
 from regscribe_runtime.wire.framing import build
 
@@ -181,3 +182,43 @@ def test_the_id_of_a_map_names_its_only_model() -> None:
     assert catalogue.find("athena/platinum-m5000").model == "M5000"
     with pytest.raises(TargetError, match="fdc/series-100 has several models: write fdc/series-100:B"):
         catalogue.find("fdc/series-100")
+
+
+def stated(text: str, decoder: Decoder) -> str:
+    asked, answered = exchange(decoder.driver, text)
+    decoder.feed(asked)
+    return " ".join(item.spelled for item in decoder.feed(answered).items)
+
+
+@pytest.mark.parametrize("where", ["4049", "0xFD1", "44050", "holding:4049", "input_type"])
+def test_a_word_read_elsewhere_is_decoded_by_its_address_in_any_notation_and_by_its_register(where: str) -> None:
+    assert stated(f"{where}=3", Decoder(OVEN)) == "input_type = J_THERMOCOUPLE"
+
+
+def test_words_before_decide_what_later_ones_mean() -> None:
+    decoder = Decoder(OVEN, state={"ieee_register_ordering": 0})
+    assert "decides what it means" in stated("8004=0x4316,0x8000", decoder)
+    stated("input_type=3", decoder)
+    stated("display_unit_of_measure=1", decoder)
+    assert stated("8004=0x4316,0x8000", decoder) == "setpoint_ram = 150.5 °F"  # 2^7 times 1 + 0x168000/2^23
+
+
+def test_signed_words_are_taken_as_well() -> None:
+    decoder = Decoder(OVEN, state=STATE)
+    assert stated("4004=-5", decoder) == stated("4004=0xFFFB", decoder) != stated("4004=5", decoder)
+
+
+@pytest.mark.parametrize(
+    ("text", "said"),
+    [
+        ("8005=1", "is word 2 of 2 of setpoint_ram, which begins at 8004: write 8004=0x0,0x0"),
+        ("8004=1", "8004 has 2 words: write 8004=0x0,0x0, the first one first"),
+        ("4049=65536", "`65536` is no word"),
+        ("4049=", "`` is no word"),
+        ("60000=1", "no register of 16C has the address 60000"),
+        ("setpont=1", "did you mean `setpoint_ram`?"),
+    ],
+)
+def test_words_that_cannot_be_placed_are_refused_with_what_to_write(text: str, said: str) -> None:
+    with pytest.raises(TargetError, match=re.escape(said)):
+        exchange(OVEN, text)
