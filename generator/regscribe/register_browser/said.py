@@ -50,7 +50,7 @@ def _in_arrays(entries: Iterable[RegisterEntry]) -> Iterator[tuple[RegisterEntry
 
 
 def about(context: PageContext) -> Json:
-    """Return what is said of a map as a whole: `paragraphs`, `programs`, and `tables`, to which links lead."""
+    """Return what is said of a map: `paragraphs`, `programs`, `errata`, and `tables`, to which links lead."""
     register_map = context.map
     shown = {
         "Which model answers": identity(context),
@@ -63,13 +63,13 @@ def about(context: PageContext) -> Json:
         "Computed values": computed(context),
         "When a request is refused": faults(context),
         "What the device means by its exception codes": exceptions(context),
-        "Errata": _errata(register_map.errata),
     }
     tables = (*views(context), *(Titled(title, one) for title, one in shown.items()), *_examples(context))
     texts = (register_map.description, *register_map.notes)
     return {
         "paragraphs": [runs(prose(text)) for text in texts if text],
         "tables": [_table(one) for one in tables if one.table.rows],
+        "errata": [_table(Titled("", _errata(register_map.errata)))] if register_map.errata else [],
         "programs": [{"name": one.name, "anchor": one.anchor} | _entry(one) for one in programs(context)],
     }
 
@@ -97,7 +97,7 @@ def _runs(text: str) -> Runs:
 
 
 def _concerned(context: PageContext) -> dict[str, Json]:
-    """Return by anchor the tables of worked examples and of errata that concern a register."""
+    """Return by anchor the worked examples and the errata of a register, and the places of its section's errata."""
     return {context.anchor("register", leaf.register.key): _tables(context, leaf) for leaf in leaves(context.nodes)}
 
 
@@ -105,10 +105,11 @@ def _tables(context: PageContext, leaf: Leaf) -> Json:
     shared = leaf.register
     elements = [one for model, _ in shared.versions for one in context.elements[model.name, shared.key]]
     errata = context.map.errata
-    places = concerning(errata, elements)
+    own, of_section = concerning(errata, elements)
     found = {
         "examples": [_table(one) for one in _examples(context, shared.key, elements)],
-        "errata": [_table(Titled("", _errata(errata[place] for place in places)))] if places else [],
+        "errata": [_table(Titled("", _errata(errata[place] for place in own)))] if own else [],
+        "section_errata": of_section,
     }
     return {key: value for key, value in found.items() if value}
 

@@ -54,7 +54,8 @@ def test_examples_and_errata_go_with_their_registers_and_with_the_map(
 ) -> None:
     found = context(model_of(small("at: 1, id: level, name: Level", tail=TAIL)))
     level = said(found)["register-level"]
-    assert "one two three" in text_of(level["errata"])
+    assert level["section_errata"] == [0]  # the level stands in this section; of the level it says nothing
+    assert "errata" not in level
     assert "0007" in text_of(level["examples"])
-    assert {"examples", "errata"}.isdisjoint(said(found)["register-cycles"])
-    assert "one two three" in text_of(about(found)["tables"])
+    assert {"examples", "errata", "section_errata"}.isdisjoint(said(found)["register-cycles"])
+    assert "one two three" in text_of(about(found)["errata"])

@@ -108,6 +108,37 @@ def test_filters_count_and_combine(series_c: Page) -> None:
     assert len(names(series_c)) > total
 
 
+def test_the_filter_of_errata_keeps_what_they_are_about_and_not_all_of_a_section(series_c: Page, address: str) -> None:
+    series_c.get_by_text("Errata", exact=True).click()
+    series_c.get_by_label("about it", exact=False).check()
+    assert 0 < len(names(series_c)) < 20
+    series_c.locator("#results .row").first.click()
+    expect(series_c.locator("#details")).to_contain_text("Errata about it (")
+    series_c.goto(f"{address}#register-input_type")
+    expect(series_c.locator("#details")).to_contain_text("Errata of its section, which need not concern it (")
+
+
+def test_words_of_errata_are_found_with_a_link_to_all_that_say_them(series_c: Page) -> None:
+    search(series_c, "printed")
+    link = series_c.locator("#more a")
+    count = int(link.inner_text().split()[0])
+    link.click()
+    heading = series_c.locator("#errata")
+    expect(heading).to_be_in_viewport()
+    assert count <= int(heading.inner_text().removeprefix("Errata (").removesuffix(")"))
+
+
+def test_how_many_writes_a_memory_endures_is_searched_and_filtered(open_page: Opener, tmp_path: Path) -> None:
+    page = open_page(written(tmp_path, map_of("athena/platinum-m300")))
+    page.get_by_text("Endurance", exact=True).click()
+    box = page.locator("[data-facet=endurance]").first
+    words = box.get_attribute("data-value")
+    box.check()
+    kept = names(page)
+    page.get_by_role("button", name="Clear filters").click()
+    assert set(kept) <= set(search(page, f"endurance {words}")) == set(search(page, words))
+
+
 def test_a_link_reproduces_what_was_seen_and_back_returns(series_c: Page, address: str) -> None:
     search(series_c, "alarm")
     found = names(series_c)

@@ -11,6 +11,7 @@ const FACETS = {
   kind: "Kind",
   unit: "Unit",
   persistence: "Kept in",
+  endurance: "Endurance",
   condition: "Depends on others",
   erratum: "Errata",
 }
@@ -19,10 +20,13 @@ const TELLING = ["map", "model", "space"]
 const ACCESS_WORDS = { r: "read only", rw: "read and write", w: "write only" }
 const KEPT_WORDS = { ram: "RAM", eeprom: "EEPROM", both: "RAM and EEPROM" }
 
+const enduranceText = (version) =>
+  version.endurance ? `${version.endurance.toLocaleString("en")} writes` : ""
+
 const commonFacets = (map, entry) => ({
   map: [map.title],
   model: modelsOf(map, entry),
-  erratum: entry.said?.errata ? ["with errata"] : [],
+  erratum: entry.said?.errata ? ["about it"] : [],
 })
 
 /** The values of a register by facet. */
@@ -36,6 +40,7 @@ function facetsOf(map, entry, variants) {
     kind: all((one) => [one.kind]),
     unit: all((one) => (one.unit ?? []).map((each) => each.then)),
     persistence: all((one) => [KEPT_WORDS[one.persistence] ?? one.persistence]),
+    endurance: all((one) => [enduranceText(one)]),
     condition: variants.some(asksOthers) ? ["by condition"] : [],
   }
 }

@@ -2,7 +2,7 @@
  * The state of the page in its address: `#register-input_type`, or `#q=alarm&access=read+only&open=athena/series-c/register-..`.
  */
 
-const ANCHOR = /^(?:register|command|condition|unit|group|program)-[a-z0-9_-]+$|^about$/
+const ANCHOR = /^(?:register|command|condition|unit|group|program)-[a-z0-9_-]+$|^(?:about|errata)$/
 
 /** @returns {{query: string, chosen: Object<string, string[]>, open: string, map: string, element: string}}
  *   map: the id, if it is said; element: the path of one of an array */

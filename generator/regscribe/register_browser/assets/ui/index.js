@@ -118,6 +118,9 @@ function searchedTexts(map, variants) {
     ["section", one.section],
     ["group", groupName(map, one.group)],
     ...(one.views ?? []).map((view) => ["space", view.space ?? "holding"]),
+    ["kept in", KEPT_WORDS[one.persistence] ?? one.persistence],
+    ["endurance", enduranceText(one)],
+    ["endurance", one.endurance && `endurance ${one.endurance}`],
     ["description", one.description],
     ...membersOf(one).flatMap((member) => [
       ["value", member.label],
@@ -130,8 +133,12 @@ function searchedTexts(map, variants) {
     ...(one.specials ?? []).map((special) => ["value", special.label]),
     ...(one.sentinels ?? []).map((sentinel) => ["value", sentinel.label]),
   ])
-  return preparedTexts(texts)
+  return preparedTexts([...texts, ...erratumTexts(variants[0].said?.errata)])
 }
+
+/** What errata say, each as one text. */
+const erratumTexts = (tables = []) =>
+  tables.flatMap(({ rows }) => rows.map((cells) => ["erratum", cells.map(plainText).join("; ")]))
 
 /** The members of all enums of a version: those of its cases, and of its fields. */
 function membersOf(version) {

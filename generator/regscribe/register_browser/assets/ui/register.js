@@ -33,12 +33,23 @@ function shownItem({ item, choice }) {
     (said.tables ?? []).filter((table) => !isInAddresses(table)).map((table) => shownTable(table, map)),
     (said.remarks ?? []).map((runs) => element("p", { class: "remark" }, shownRuns(runs, map))),
     (said.examples ?? []).map((table) => shownTable(table, map)),
-    (said.errata ?? []).map((table) => [
-      element("h3", {}, "Errata of its section, or that name it"),
-      shownTable(table, map),
-    ]),
+    shownErrata("Errata about it", said.errata, map),
+    shownErrata("Errata of its section, which need not concern it", errataOfSection(item), map),
     sourceLine(map),
   ]
+}
+
+/** The tables of errata under a heading that counts them. */
+const shownErrata = (heading, tables, map, attributes = {}) =>
+  (tables ?? []).map((table) => [
+    element("h3", attributes, `${heading} (${table.rows.length})`),
+    shownTable(table, map),
+  ])
+
+/** The table of the map's errata, with the rows of an item's section alone. */
+const errataOfSection = ({ map, entry }) => {
+  const places = entry.said?.section_errata ?? []
+  return places.length ? map.about.errata.map((table) => ({ ...table, rows: places.map((place) => table.rows[place]) })) : []
 }
 
 /** Whether a table of the reference says nothing but what the table of addresses says. */
@@ -131,11 +142,12 @@ function shownChoices({ map, entry }, choice) {
 
 /** What holds for a map as a whole. */
 function shownMap(map) {
-  const { paragraphs = [], tables = [], programs = [] } = map.about ?? {}
+  const { paragraphs = [], tables = [], errata = [], programs = [] } = map.about ?? {}
   return [
     shownTitle(map.title, "about"),
     paragraphs.map((runs) => element("p", {}, shownRuns(runs, map))),
     tables.map((table) => shownTable(table, map)),
+    shownErrata("Errata", errata, map, { id: "errata", tabindex: "-1", class: "target" }),
     programs.map((one) => [
       element("h3", { id: one.anchor }, one.name),
       shownFacts(one.facts ?? [], map),

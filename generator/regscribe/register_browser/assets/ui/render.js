@@ -7,7 +7,7 @@ function openedOf({ open: anchor, map: id, element: path }) {
   const item = browser.items.find((one) => one.anchor === anchor && isThere(one.map))
   if (item) return { item, choice: choiceOf(item, path) }
   const map = browser.maps.find(isThere)
-  return map && /^(?:about|condition-|unit-|program-)/.test(anchor) ? { map } : null
+  return map && /^(?:about|errata|condition-|unit-|program-)/.test(anchor) ? { map } : null
 }
 
 /** What is chosen of an item: at first the model that the list is filtered by, and the element that was found. */
@@ -44,7 +44,7 @@ function render() {
       .filter(Boolean),
     ...clearButton(chosen),
   )
-  showResults(found)
+  showResults(found, query)
   document.getElementById("count").textContent = countText(found.length, query, chosen)
   showOpened()
 }

@@ -42,8 +42,16 @@ const placeSpan = (place, item) =>
 const whyText = (why) =>
   (why.length > LONG_WHY ? [...why.slice(0, LONG_WHY), `${why.length - LONG_WHY} more`] : why).join("; ")
 
+/** Links to the errata of maps that say what was searched, whichever register they are about. */
+const errataLinks = (query) =>
+  browser.maps.flatMap((map) => {
+    const count = errataWith(map, query)
+    const words = `${count} ${count === 1 ? "erratum" : "errata"} of ${map.title} with these words`
+    return count ? [element("p", {}, element("a", { href: hashOfAnchor(map, "errata") }, words))] : []
+  })
+
 /** Show what was found, the first rows of many. */
-function showResults(found) {
+function showResults(found, query) {
   const list = document.getElementById("results")
   const isMore = browser.most < found.length
   list.replaceChildren(...found.slice(0, browser.most).map(shownRow))
@@ -56,6 +64,7 @@ function showResults(found) {
           }),
         ]
       : []),
+    ...errataLinks(query),
   )
 }
 

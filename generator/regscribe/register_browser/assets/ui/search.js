@@ -2,7 +2,7 @@
  * Search: each word of a query must be found; a word may be an address in any notation.
  */
 
-const WEIGHTS = { name: 60, id: 55, symbol: 65, section: 40, group: 15, value: 25, bit: 25, space: 8, description: 5 }
+const WEIGHTS = { name: 60, id: 55, symbol: 65, section: 40, group: 15, value: 25, bit: 25, space: 8, "kept in": 8, endurance: 8, description: 5, erratum: 4 }
 const WHOLE = 30
 const EXACT_ADDRESS = 200
 const LESS_PLAIN = 5
@@ -129,6 +129,13 @@ function textRank({ kind, lower, words }, token) {
   if (lower.startsWith(token)) return weight + WHOLE / 2
   if (words.some((word) => word.startsWith(token))) return weight
   return (kind === "name" || kind === "id") && lower.includes(token) ? weight / 2 : 0
+}
+
+/** How many errata of a map have all words of a query. */
+function errataWith(map, query) {
+  const tokens = query.toLowerCase().split(/\s+/).filter(Boolean)
+  const texts = preparedTexts(erratumTexts(map.about?.errata))
+  return tokens.length ? texts.filter((text) => tokens.every((token) => textRank(text, token))).length : 0
 }
 
 /** An address of which the token is the beginning. */
