@@ -5,8 +5,8 @@ from pathlib import Path
 import pytest
 from playwright.sync_api import Page, expect
 
-from .pages import Opener
-from .register_pages import SERIES_C, known, map_of, reading, written
+from .pages import Opener, serious
+from .register_pages import SERIES_C, known, map_of, reading, search, written
 
 pytestmark = pytest.mark.browser
 
@@ -79,6 +79,51 @@ def test_a_refusal_says_why(setpoint: Page) -> None:
     expect(setpoint.locator(".refused")).to_have_count(0)
     known(setpoint, "setpoint_high_limit").fill("")
     expect(setpoint.locator(".refused")).to_contain_text("setpoint_high_limit is not known")
+
+
+def test_words_count_while_they_are_typed_and_the_caret_stays(setpoint: Page) -> None:
+    setpoint.locator("[data-choice=view]").select_option("base")
+    field = setpoint.locator('[data-word="10-0"]')
+    field.fill("55")
+    field.press("ArrowLeft")
+    field.press("0")
+    assert reading(setpoint) == "505 °F"
+    expect(field).to_be_focused()
+    assert field.evaluate("field => field.selectionStart") == 2
+    field.press("Control+z")
+    assert reading(setpoint) == "55 °F"  # what a browser knows to undo is not lost
+
+
+@pytest.mark.parametrize(
+    ("field", "text", "reason"),
+    [
+        ("word=16-0", "0x", "0x is no hexadecimal number"),
+        ("word=16-0", "12345", "12345 is more than 0xFFFF"),
+        ("word=10-0", "70000", "70000 is more than 65535"),
+        ("word=10-0", "-32769", "-32769 is less than -32768"),
+        ("word=10-0", "1.5", "1.5 is no whole number"),
+        ("word=10-0", "", "Empty: a word needs a number"),
+        ("value=text", "warm", "Refused: warm is no number"),
+        ("known=setpoint_high_limit", "warm", "warm is no number"),
+        ("known=linear_decimal_position", "70000", "70000 lies outside -32768 to 32767 of int16"),
+    ],
+)
+def test_a_text_that_is_no_value_has_its_reason_beside_it(setpoint: Page, field: str, text: str, reason: str) -> None:
+    name, _, value = field.partition("=")
+    written = setpoint.locator(f'[data-{name}="{value}"]')
+    written.fill(text)
+    expect(written).to_have_attribute("aria-invalid", "true")
+    expect(setpoint.locator(f"[id='{written.get_attribute('aria-describedby')}']")).to_have_text(reason)
+    expect(setpoint.locator("#said")).to_contain_text(reason)  # once nothing more is typed
+    assert serious(setpoint) == []
+    written.fill("1")
+    expect(written).not_to_have_attribute("aria-invalid", "true")
+
+
+def test_a_number_that_is_no_address_says_so(setpoint: Page) -> None:
+    for text, reason in (("70000", "70000 is more than 65535"), ("0x", "0x is no number")):
+        search(setpoint, text)
+        expect(setpoint.locator("#count")).to_contain_text(reason)
 
 
 def test_a_view_that_stops_shows_no_value(open_page: Opener, address: str) -> None:

@@ -22,6 +22,14 @@ function addressReadings(written) {
   return [...plain, ...modiconReadings(text)]
 }
 
+/** Why a text that looks like an address is none, to be said behind others; empty for what does not look like one. */
+function addressTrouble(text) {
+  const digits = /^(?:(?:0x|\$)(.*)|([0-9]+))$/i.exec(text)
+  if (!digits) return ""
+  const number = digits[2] ? Number(text) : Number(`0x${digits[1]}`)
+  return number <= LAST_ADDRESS ? "" : `: ${text} is ${number > LAST_ADDRESS ? `more than ${LAST_ADDRESS}` : "no number"}`
+}
+
 function modiconReadings(text) {
   const number = Number(text.slice(1))
   const space = MODICON_DIGITS[text[0]]

@@ -18,7 +18,8 @@ const WIDTHS = { coil: 1, discrete: 1, status: 8, enron: 32 }
 /** The calculator of an item; what is chosen in it stays in `choice`. */
 function shownCalculator(item, choice) {
   const { map, entry } = item
-  const box = element("section", { class: "calculator", "aria-label": "Calculator" })
+  const boxed = (parts) => element("section", { class: "calculator", "aria-label": "Calculator" }, parts)
+  const box = boxed([])
   const again = (focus) => {
     const { model } = choice
     const register = registerOf(map, entry, model, choice.index)
@@ -28,7 +29,7 @@ function shownCalculator(item, choice) {
       register.views[0]
     if (!view) return
     const state = { ...stateOf(item, choice, model, register, view), again, choice, item }
-    box.replaceChildren(...calculatorParts(state))
+    renewCalculator(box, boxed(calculatorParts(state)))
     if (focus) box.querySelector(focus)?.focus()
   }
   again()
@@ -91,7 +92,7 @@ function calculatorParts(state) {
           ),
         )
       : null,
-    surroundingFields(item.map, state.model, state.asked, () => refresh(state)),
+    surroundingFields(item.map, state.model, state.asked, again),
     element("div", { class: "sides" }, wordsSide(state), valueSide(state)),
     element("div", { class: "copies" }, copyLines(state)),
   ].filter(Boolean)
@@ -103,10 +104,16 @@ function restart(choice) {
   choice.text = null
 }
 
-/** Compute again after a change of what is known, without touching the field that is written into. */
-function refresh(state) {
-  const focused = document.activeElement?.getAttribute("data-known")
-  const [from, to] = [document.activeElement?.selectionStart, document.activeElement?.selectionEnd]
-  state.again(focused ? `[data-known="${CSS.escape(focused)}"]` : null)
-  if (focused && typeof from === "number") document.activeElement.setSelectionRange?.(from, to)
+/** Show what was computed again; the field that has the focus stays itself, or is followed by its like. */
+function renewCalculator(box, made) {
+  const field = box.contains(document.activeElement) ? document.activeElement : null
+  const mark = ["known", "word", "value"].find((name) => field?.dataset[name] !== undefined)
+  const twin = mark && made.querySelector(`[data-${mark}="${CSS.escape(field.dataset[mark])}"]`)
+  if (twin && field.type === "text") {
+    renew(box, made, field, twin)
+    announceLater([...box.querySelectorAll(".reading, .refused, .trouble")].map((one) => one.innerText).join(" "))
+  } else {
+    box.replaceChildren(...made.childNodes)
+    twin?.focus()
+  }
 }

@@ -8,17 +8,14 @@ function valueSide(state) {
     "div",
     { class: "value" },
     element("h4", {}, "Value"),
-    element("output", { class: `reading ${reading.meaning}`, "aria-live": "polite" }, readingNodes(reading, said)),
+    element("output", { class: `reading ${reading.meaning}`, "aria-live": "off" }, readingNodes(reading, said)),
     said.fields ? fieldList(said.fields) : null,
     register.access === "r"
       ? element("p", { class: "hint" }, "Read only: a value has no words to write.")
       : valueFields(state),
     stateHint(register, known),
-    sent?.refused
-      ? element("p", { class: "refused", role: "status" }, element("strong", {}, "Refused: "), reasonOf(sent))
-      : null,
     choice.text !== null && sent?.words
-      ? element("p", { class: "hint", role: "status" }, `Written as ${hexWords(sent.words)}`)
+      ? element("p", { class: "hint" }, `Written as ${hexWords(sent.words)}`)
       : null,
   )
 }
@@ -81,7 +78,7 @@ function fieldList(fields) {
 }
 
 function valueFields(state) {
-  const { register, choice, again, known, reading } = state
+  const { register, choice, again, known, reading, sent } = state
   const tell = (text, focus) => {
     choice.text = text.trim() === "" ? null : text
     again(focus)
@@ -107,13 +104,8 @@ function valueFields(state) {
     autocomplete: "off",
     spellcheck: "false",
     placeholder: hintOf(register),
-    on: {
-      input: () => {
-        const at = field.selectionStart
-        tell(field.value, "[data-value=text]")
-        document.activeElement.setSelectionRange?.(at, at)
-      },
-    },
+    ...troubleAttributes("trouble-value", sent?.refused),
+    on: { input: () => tell(field.value) },
   })
   field.value = choice.text ?? ""
   const round = element("input", {
@@ -132,6 +124,7 @@ function valueFields(state) {
     { class: "write" },
     pick,
     labelled("Value to write", field),
+    element("p", { class: sent?.refused ? "refused" : "hidden", id: "trouble-value" }, sent?.refused ? refusal(state) : null),
     register.kind === "number" ? element("label", { class: "check" }, round, " round to what the view can hold") : null,
   )
 }
@@ -148,6 +141,11 @@ const hintOf = (register) =>
 const textOf = (register, reading, known) =>
   reading.value === undefined ? "" : describe(register, reading, known).text
 
-const reasonOf = ({ refused, why, subject }) => [why, refused === "unknown" && subject ? ": say it above" : ""]
+/** Why a value is refused. */
+const refusal = ({ sent: { refused, why, subject } }) => [
+  element("strong", {}, "Refused: "),
+  why,
+  refused === "unknown" && subject ? ": say it above" : "",
+]
 
 const hexWords = (words) => words.map((word) => word.toString(16).toUpperCase().padStart(4, "0")).join(" ")

@@ -70,8 +70,48 @@ async function copyText(text) {
   }
 }
 
+let waiting = 0
+
+/** Let a screen reader say a text when nothing was typed for a while: not at each key. */
+function announceLater(text) {
+  clearTimeout(waiting)
+  waiting = setTimeout(() => announce(text), 800)
+}
+
+/** What is wrong with what stands in a field, beside it; empty where nothing is. */
+const troubleNote = (id, reason = "") => element("span", { class: "trouble", id }, reason)
+
+/** Attributes of a field that such a note is about. */
+const troubleAttributes = (id, reason) => ({ "aria-describedby": id, "aria-invalid": reason ? "true" : null })
+
+/** Say what is wrong with what is being typed, or that nothing is. */
+function tellTrouble(field, reason) {
+  document.getElementById(field.getAttribute("aria-describedby")).textContent = visibleText(reason)
+  field.toggleAttribute("aria-invalid", false)
+  if (reason) field.setAttribute("aria-invalid", "true")
+  announceLater(visibleText(reason))
+}
+
+/**
+ * Put new children into a box, but leave the field that is typed into: it keeps focus, caret, and what undo knows.
+ * @param {Element} field  in `old`, of which `twin` is the new version in `made`
+ */
+function renew(old, made, field, twin) {
+  for (const { name, value } of [...made.attributes]) old.setAttribute(name, value)
+  for (const { name } of [...old.attributes]) if (!made.hasAttribute(name)) old.removeAttribute(name)
+  if (old === field) return
+  const kept = [...old.childNodes].find((one) => one.contains(field))
+  const like = [...made.childNodes].find((one) => one.contains(twin))
+  for (const one of [...old.childNodes]) if (one !== kept) one.remove()
+  const parts = [...made.childNodes]
+  kept.before(...parts.slice(0, parts.indexOf(like)))
+  kept.after(...parts.slice(parts.indexOf(like) + 1))
+  renew(kept, like, field, twin)
+}
+
 /** Let a screen reader say a text. */
 function announce(text) {
+  clearTimeout(waiting)
   document.getElementById("said").textContent = text
 }
 

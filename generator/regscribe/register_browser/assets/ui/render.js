@@ -66,7 +66,7 @@ const flat = (nodes) => nodes.flat(Infinity).filter(Boolean)
 const countText = (count, query, chosen) => {
   if (!count && query) {
     const limits = isFiltered(chosen) ? ", as far as the filters let it show" : ""
-    return `Nothing is called or stands at “${visibleText(query)}”${limits}`
+    return `Nothing is called or stands at “${visibleText(query)}”${limits}${addressTrouble(query.trim())}`
   }
   return `${count} of ${browser.items.length} ${browser.items.length === 1 ? "register" : "registers and commands"}`
 }

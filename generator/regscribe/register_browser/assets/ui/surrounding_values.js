@@ -4,7 +4,7 @@
 
 /** What the reader has said of a map so far; it stays while registers are looked at. */
 function saidOf(map) {
-  if (!browser.said.has(map.id)) browser.said.set(map.id, { values: {}, givens: {}, written: {} })
+  if (!browser.said.has(map.id)) browser.said.set(map.id, { values: {}, wrong: {}, givens: {}, written: {} })
   return browser.said.get(map.id)
 }
 
@@ -51,14 +51,40 @@ function registerField(map, model, path, changed) {
   const said = saidOf(map)
   const value = said.values[path] ?? defaultOf(map, model, path)
   const tell = (text) => {
-    said.values[path] = text
+    const isImpossible = impossible(found, text)
+    said.wrong[path] = isImpossible ? text : undefined
+    said.values[path] = isImpossible ? "" : text
     changed()
   }
   const members = found?.field ? found.field.enum?.members : found?.register.enum?.members
   const name = found ? (found.field ? `${found.register.name}: ${found.field.label}` : found.register.name) : path
-  const control = members?.length ? memberPicker(members, value, tell) : numberField(value, tell)
-  control.setAttribute("data-known", path)
-  return labelled(element("span", {}, name, " ", element("code", {}, path)), control)
+  const control = members?.length ? memberPicker(members, value, tell) : numberField(said.wrong[path] ?? value, tell)
+  return knownField(name, path, control, impossible(found, said.wrong[path] ?? ""))
+}
+
+/** A field of what is known, with what is wrong with what stands in it. */
+function knownField(name, key, control, reason) {
+  const id = `trouble-known-${key}`
+  control.setAttribute("data-known", key)
+  for (const [attribute, value] of Object.entries(troubleAttributes(id, reason)))
+    if (value) control.setAttribute(attribute, value)
+  return element(
+    "div",
+    {},
+    labelled(element("span", {}, name, " ", element("code", {}, key)), control),
+    troubleNote(id, reason),
+  )
+}
+
+/** Why a register can have no such value, whatever the others have; empty where it can, and for no text. */
+function impossible(found, text) {
+  if (!text || (found && isText(found.register))) return ""
+  if (!parse(text)) return `${text} is no number`
+  if (!found || found.field) return ""
+  const [view] = found.register.views
+  const writable = { ...found.register, access: "rw", range: [], valid: [] }
+  const { refused, why } = encode(writable, view, text, surroundings())
+  return refused === "type" ? why : ""
 }
 
 function memberPicker(members, value, tell) {
@@ -114,10 +140,16 @@ function givenField(map, id, changed) {
     choice: () =>
       picker([["", "not known"], ...(given.choices ?? []).map((one) => [one, one])], givens[id] ?? "", tell),
     codes: () => numberField(written[id] ?? "", (text) => tell(codesOf(text), text)),
-    number: () => numberField(written[id] ?? "", (text) => tell(text)),
+    number: () => numberField(written[id] ?? "", (text) => tell(parse(text) ? text : "", text)),
   }[given.kind]()
-  control.setAttribute("data-known", id)
-  return labelled(element("span", {}, given.description.replaceAll("`", ""), " ", element("code", {}, id)), control)
+  return knownField(given.description.replaceAll("`", ""), id, control, givenTrouble(given, written[id] ?? ""))
+}
+
+/** What is wrong with what was written for a given; empty where nothing is. */
+function givenTrouble({ kind }, text) {
+  if (kind === "number") return text && !parse(text) ? `${text} is no number` : ""
+  const wrong = kind === "codes" && text.split(/[,\s]+/).find((part) => part && !codesOf(part).length)
+  return wrong ? `${wrong} is no code, and no stretch such as 4..6` : ""
 }
 
 /** The codes of a list `1, 4..6`; empty for no text. */
