@@ -28,7 +28,7 @@ COMMANDS = {
     "check": "Report what is wrong in maps.",
     "fmt": "Lay out maps in their canonical form.",
     "generate": "Compile maps to drivers, reference docs, test vectors and tests.",
-    "explain": "Explain a rule, with a bad and a good example.",
+    "explain": "Explain a rule, with a bad and a good example, or list all rules.",
     "new": "Start a map: a commented skeleton that passes `check`.",
     "import": "Make a map of a table of registers or of another program's configuration.",
     "export": "Print what maps say in the form of another program, and what that form cannot say.",

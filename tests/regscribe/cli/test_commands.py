@@ -42,6 +42,22 @@ def test_an_explanation_without_docstrings_leaves_the_reason_out(
     assert cli("explain", "RS0401").out.startswith("error[RS0401]: Addresses overlap\n\nBad:\n")
 
 
+def test_without_a_rule_all_rules_are_listed_by_what_they_are_about(cli: Callable[..., Any]) -> None:
+    result = cli("explain")
+    listed = [line.split("  ")[0] for line in result.out.splitlines() if not line.startswith("#")]
+    assert (result.code, result.err) == (0, "")
+    assert sorted(listed) == [rule.id for rule in catalogue.all_rules()]
+    assert "# changes between two versions\nRS0701  " in result.out
+
+
+def test_rules_are_listed_for_programs(cli: Callable[..., Any]) -> None:
+    every = json.loads(cli("explain", "--format", "json").out)["rules"]
+    (one,) = json.loads(cli("explain", "rs0401", "--format", "json").out)["rules"]
+    assert [rule["rule"] for rule in every] == [rule.id for rule in catalogue.all_rules()]
+    assert one in every
+    assert (one["rule"], one["severity"], one["title"]) == ("RS0401", "error", "Addresses overlap")
+
+
 @pytest.mark.parametrize("name", ["acme/oven", "acme/oven-3", "my-maker/the-3rd-family", "a/b", "true/no", "3m/93-pm"])
 def test_a_new_map_passes_check(cli: Callable[..., Any], name: str) -> None:
     result = cli("new", name)

@@ -32,7 +32,12 @@ SCRIPTS = {
 @pytest.mark.parametrize("shell", SCRIPTS)
 @pytest.mark.parametrize(
     ("typed", "completed"),
-    [("regscribe che", "check"), ("regscribe check --str", "--strict"), ("regscribe read --col", "--color")],
+    [
+        ("regscribe che", "check"),
+        ("regscribe check --str", "--strict"),
+        ("regscribe explain RS040", "RS0401"),
+        ("regscribe read --col", "--color"),
+    ],
 )
 def test_a_shell_completes_commands_and_options(shell: str, typed: str, completed: str, tmp_path: Path) -> None:
     program = shutil.which(shell)

@@ -1,4 +1,4 @@
-"""`regscribe explain`: a rule with a bad and a good example."""
+"""`regscribe explain`: a rule with a bad and a good example, or the list of all rules."""
 
 from collections.abc import Iterator
 from difflib import SequenceMatcher, get_close_matches
@@ -10,30 +10,69 @@ from regscribe.breaking.examples import EDITS, shown
 from regscribe.breaking.report import told
 from regscribe.checks import catalogue
 from regscribe.checks.catalogue import Example
+from regscribe.cli.shared.completion_values import complete_rule
 from regscribe.cli.shared.diagnostic_text import STYLES
-from regscribe.cli.shared.output import Piece, refuse, show
+from regscribe.cli.shared.output import Piece, print_json, refuse, show, show_table
 from regscribe.model import Rule
 
+TITLES = {
+    "source": "the text of a map",
+    "schema": "keys and the shapes of values",
+    "lower": "names and what they refer to",
+    "checks": "what registers say of the device",
+    "compose": "maps of several files",
+    "breaking": "changes between two versions",
+}
+"""What the rules of each room are about."""
 
-@click.command(epilog="Example: regscribe explain RS0109")
-@click.argument("rule_id", metavar="RULE")
-def command(*, rule_id: str) -> None:
+
+@click.command(epilog="Example: regscribe explain RS0109\n\nExit code 0: done, 2: wrong usage.")
+@click.argument("rule_id", metavar="[RULE]", required=False, shell_complete=complete_rule)
+@click.option("--format", "form", type=click.Choice(["text", "json"]), default="text", show_default=True)
+def command(*, rule_id: str | None, form: str) -> None:
     """Explain a rule: what it asks, why, and a bad and a good example; of a kind of change, an edit that makes it.
 
-    RULE is the id that a finding shows. Lines in which the examples differ are marked with - and +.
+    RULE is the id that a finding shows. Lines in which the examples differ are marked with - and +. Without RULE all
+    rules are listed by what they are about; --format json leaves examples out.
     """
     rules = {rule.id: rule for rule in catalogue.all_rules()}
-    rule = rules.get(rule_id.upper())
-    if rule is None:
+    chosen = list(rules.values()) if rule_id is None else [_named(rule_id, rules)]
+    if form == "json":
+        print_json(rules=[_plain(rule) for rule in chosen])
+    elif rule_id is None:
+        _show_all()
+    else:
+        show(_explanation(*chosen))
+
+
+def _named(rule_id: str, rules: dict[str, Rule]) -> Rule:
+    """The rule of this id. Raises click.UsageError."""
+    if rule_id.upper() not in rules:
         refuse(f"there is no rule `{rule_id}`{_meant(rule_id, rules)}")
-    show(_explanation(rule))
+    return rules[rule_id.upper()]
+
+
+def _plain(rule: Rule) -> dict[str, str]:
+    return {
+        "rule": rule.id,
+        "severity": rule.severity.value,
+        "about": TITLES[catalogue.room_of(rule.id)],
+        "title": rule.title,
+        "why": rule.why,
+    }
+
+
+def _show_all() -> None:
+    for name, room in catalogue.ROOMS.items():
+        rows = [(rule.id, rule.severity.value, rule.title) for rule in sorted(room.RULES, key=lambda rule: rule.id)]
+        show_table(("RULE", "SEVERITY", "TITLE"), rows, title=TITLES[name])
 
 
 def _meant(rule_id: str, rules: dict[str, Rule]) -> str:
     near = get_close_matches(rule_id.upper(), rules, n=1)
     if near:
         return f"; did you mean `{near[0]}` ({rules[near[0]].title})?"
-    return f": rules have ids from {min(rules)} to {max(rules)}"
+    return f": rules have ids from {min(rules)} to {max(rules)}, and `regscribe explain` lists them"
 
 
 def _explanation(rule: Rule) -> Iterator[Piece]:

@@ -1,4 +1,4 @@
-"""What a shell completes: names of devices, models, registers and commands; a mistake completes nothing."""
+"""What a shell completes: names of devices, models, registers, commands and rules; a mistake completes nothing."""
 
 from collections.abc import Callable, Iterable
 from contextlib import suppress
@@ -37,6 +37,14 @@ def complete_target(context: click.Context, typed: str) -> Iterable[tuple[str, s
 def complete_model(context: click.Context, _: str) -> Iterable[tuple[str, str]]:
     """Models of the drivers."""
     return [(one.model, catalogue.title(one)) for one in catalogue.models(tuple(context.params.get("packages") or ()))]
+
+
+@_completer
+def complete_rule(_context: click.Context, _: str) -> Iterable[tuple[str, str]]:
+    """Ids of rules."""
+    from regscribe.checks import catalogue as rules  # noqa: PLC0415 - the compiler, which no live command waits for
+
+    return [(rule.id, rule.title) for rule in rules.all_rules()]
 
 
 @_completer
