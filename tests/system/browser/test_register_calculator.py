@@ -74,11 +74,35 @@ def test_a_value_becomes_words_a_line_of_python_and_a_request(setpoint: Page) ->
 
 def test_a_refusal_says_why(setpoint: Page) -> None:
     setpoint.get_by_label("Value to write").fill("1401")
-    expect(setpoint.locator(".refused")).to_have_text("Refused: 1401 lies outside the range")
+    expect(setpoint.locator(".refused")).to_contain_text("Refused: 1401 lies outside the range. Decided above by")
     known(setpoint, "setpoint_high_limit").fill("1402")
     expect(setpoint.locator(".refused")).to_have_count(0)
     known(setpoint, "setpoint_high_limit").fill("")
     expect(setpoint.locator(".refused")).to_contain_text("setpoint_high_limit is not known")
+
+
+def test_a_value_may_have_the_unit_that_it_is_shown_with_and_no_other(setpoint: Page) -> None:
+    setpoint.locator("[data-choice=view]").select_option("x10")
+    known(setpoint, "temperature_decimal_position").fill("1")
+    value = setpoint.get_by_label("Value to write")
+    value.fill("150.5 °F")
+    assert setpoint.locator('[data-word="16-0"]').input_value() == "0x05E1"
+    value.fill("150.5 °C")
+    expect(setpoint.locator(".refused")).to_contain_text("Refused: the unit is °F here, not °C")
+    known(setpoint, "input_type").select_option("14")  # a linear input has no unit
+    expect(setpoint.locator(".refused")).to_contain_text("as things stand there is no unit °C")
+
+
+def test_a_refusal_leads_to_the_registers_that_decided_it(setpoint: Page) -> None:
+    setpoint.locator("[data-choice=view]").select_option("x10")
+    known(setpoint, "temperature_decimal_position").fill("1")
+    setpoint.get_by_label("Value to write").fill("150.05")
+    refused = setpoint.locator(".refused")
+    expect(refused).to_contain_text("150.05 is no multiple of 0.1. Decided above by")
+    expect(refused.get_by_role("button", name="view = x10")).to_be_visible()
+    expect(refused).not_to_contain_text("Linear Input")  # of another case
+    refused.get_by_role("button", name="Decimal Position for Thermocouple or RTD Input = 1").click()
+    expect(known(setpoint, "temperature_decimal_position")).to_be_focused()
 
 
 def test_words_count_while_they_are_typed_and_the_caret_stays(setpoint: Page) -> None:

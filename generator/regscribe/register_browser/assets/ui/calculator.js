@@ -44,7 +44,7 @@ function stateOf(item, choice, model, register, view) {
   const count = view.space in { coil: 1, discrete: 1, status: 1 } ? 1 : view.words
   if (choice.words?.length !== count) choice.words = null
   if (!choice.words && !choice.text) choice.words = startWords(register, view, known, count)
-  const sent = choice.text === null ? null : encode(register, view, choice.text, known, { rounded: choice.rounded })
+  const sent = choice.text === null ? null : encodedText(register, view, choice.text, known, { rounded: choice.rounded })
   if (sent?.words) choice.words = sent.words
   const words = choice.words ?? Array(count).fill(0)
   return {

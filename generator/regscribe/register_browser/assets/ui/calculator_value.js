@@ -103,7 +103,7 @@ function valueFields(state) {
     "data-value": "text",
     autocomplete: "off",
     spellcheck: "false",
-    placeholder: hintOf(register),
+    placeholder: hintOf(register, unitOf(register, known)),
     ...troubleAttributes("trouble-value", sent?.refused),
     on: { input: () => tell(field.value) },
   })
@@ -129,23 +129,18 @@ function valueFields(state) {
   )
 }
 
-const hintOf = (register) =>
+const hintOf = (register, unit) =>
   register.enum
     ? "code, id or label"
     : register.kind === "flags"
       ? "number or names"
       : register.kind === "number"
-        ? "150.5"
+        ? unit
+          ? `150.5 or 150.5 ${unit}`
+          : "150.5"
         : ""
 
 const textOf = (register, reading, known) =>
   reading.value === undefined ? "" : describe(register, reading, known).text
-
-/** Why a value is refused. */
-const refusal = ({ sent: { refused, why, subject } }) => [
-  element("strong", {}, "Refused: "),
-  why,
-  refused === "unknown" && subject ? ": say it above" : "",
-]
 
 const hexWords = (words) => words.map((word) => word.toString(16).toUpperCase().padStart(4, "0")).join(" ")
