@@ -167,6 +167,25 @@ def test_an_element_that_was_searched_is_the_one_that_opens(series_c: Page) -> N
     assert series_c.get_by_label("Element").input_value() == "3"
 
 
+def test_what_was_searched_opens_in_a_model_that_has_it(series_c: Page, address: str) -> None:
+    series_c.goto(f"{address}#register-led_status_indicator_byte")
+    model = series_c.locator("[data-choice=model]")
+    expect(model).to_have_value("1ZC")  # the first
+    search(series_c, "led A2")  # a bit that 1ZC does not have
+    expect(model).to_have_value("16C")
+    assert "1ZC: not what was searched" in model.locator("option").all_inner_texts()
+    model.select_option("1ZC")  # who wants another model has it
+    series_c.locator("#theme").click()
+    expect(model).to_have_value("1ZC")
+
+
+def test_the_choice_of_models_says_which_have_no_such_register(series_c: Page, address: str) -> None:
+    series_c.goto(f"{address}#model=1ZC&open=register-display_filter")
+    model = series_c.locator("[data-choice=model]")
+    expect(model).to_have_value("16C")
+    expect(model.locator("option", has_text="1ZC: does not have it")).to_be_disabled()
+
+
 def test_the_keyboard_is_enough(series_c: Page) -> None:
     series_c.keyboard.press("/")
     series_c.keyboard.type("setpoint limit")

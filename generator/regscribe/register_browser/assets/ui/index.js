@@ -7,7 +7,7 @@
  * @property {string} anchor
  * @property {string} name
  * @property {string} path  with letters for indices
- * @property {{kind: string, text: string, words: string[]}[]} texts  what search looks at, in lower case
+ * @property {{kind: string, text: string, words: string[], models: string[]}[]} texts  what search looks at, in lower case
  * @property {Place[]} places
  * @property {Object<string, string[]>} facets  values by facet
  *
@@ -18,6 +18,7 @@
  * @property {number[]} offsets  of its words
  * @property {string} path  of the element
  * @property {boolean} alias
+ * @property {string[]} models  that have it
  */
 
 const LETTERS = "ijkmn"
@@ -73,6 +74,7 @@ function commandItem(map, entry) {
     ["section", one.section],
     ["description", one.description],
   ])
+  const models = modelsOf(map, entry)
   return {
     map,
     entry,
@@ -80,7 +82,7 @@ function commandItem(map, entry) {
     name: variants[0].name,
     path: `commands.${entry.id}`,
     command: true,
-    texts: preparedTexts(texts),
+    texts: preparedTexts(texts, models),
     places: variants.flatMap((one) =>
       (one.steps ?? []).map((step) => ({
         view: "",
@@ -89,6 +91,7 @@ function commandItem(map, entry) {
         offsets: [...(step.words ?? [0])].map((_, place) => place),
         path: entry.id,
         alias: false,
+        models: one.models,
       })),
     ),
     facets: { ...commonFacets(map, entry), kind: ["command"] },
@@ -110,7 +113,7 @@ function nameOf(version) {
 const groupName = (map, id) => map.groups?.find((one) => one.id === id)?.name ?? id ?? ""
 
 function searchedTexts(map, variants) {
-  const texts = variants.flatMap((one) => [
+  const textsOf = (one) => [
     ["name", one.name],
     ["id", one.path],
     ["symbol", one.symbol],
@@ -132,8 +135,11 @@ function searchedTexts(map, variants) {
     ]),
     ...(one.specials ?? []).map((special) => ["value", special.label]),
     ...(one.sentinels ?? []).map((sentinel) => ["value", sentinel.label]),
-  ])
-  return preparedTexts([...texts, ...erratumTexts(variants[0].said?.errata)])
+  ]
+  return preparedTexts([
+    ...variants.flatMap((one) => textsOf(one).map(([kind, text]) => [kind, text, one.models])),
+    ...erratumTexts(variants[0].said?.errata),
+  ], variants.flatMap((one) => one.models))
 }
 
 /** What errata say, each as one text. */
@@ -149,10 +155,15 @@ function membersOf(version) {
   ])
 }
 
-function preparedTexts(pairs) {
+/** Texts of a kind, each once, with the models that have them: `every` where none are said. */
+function preparedTexts(texts, every) {
   const found = new Map()
-  for (const [kind, text] of pairs)
-    if (text) found.set(`${kind} ${text}`, { kind, text, lower: text.toLowerCase(), words: wordsOf(text) })
+  for (const [kind, text, models = every] of texts) {
+    if (!text) continue
+    const known = found.get(`${kind} ${text}`)
+    if (known) known.models = [...known.models, ...models]
+    else found.set(`${kind} ${text}`, { kind, text, lower: text.toLowerCase(), words: wordsOf(text), models })
+  }
   return [...found.values()]
 }
 
@@ -170,7 +181,7 @@ function placesOf(version) {
     )
     aliases.forEach((alias, place) => found.push(placeOf(views[0], now(`aliases/${place}`, alias), element, true)))
   }
-  return found
+  return found.map((one) => ({ ...one, models: version.models }))
 }
 
 function placeOf(view, address, path, alias) {

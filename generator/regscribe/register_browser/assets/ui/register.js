@@ -113,12 +113,14 @@ function shownChoices({ map, entry }, choice) {
     showOpened()
     document.querySelector(`[data-choice="${name}"]`)?.focus()
   }
+  const lacks = (name) =>
+    !models.includes(name) ? ": does not have it" : choice.having.includes(name) ? "" : ": not what was searched"
   const pickers = [
-    models.length > 1 && (entry.variants || entry.elements)
+    map.models.length > 1 && (entry.variants || entry.elements || entry.models)
       ? labelled(
           "Model",
           picker(
-            models.map((one) => [one, one]),
+            map.models.map(({ name }) => [name, `${name}${lacks(name)}`, !models.includes(name)]),
             choice.model,
             (model) => tell({ model }, "model"),
             { "data-choice": "model" },

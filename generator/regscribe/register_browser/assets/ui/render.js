@@ -10,19 +10,32 @@ function openedOf({ open: anchor, map: id, element: path }) {
   return map && /^(?:about|errata|condition-|unit-|program-)/.test(anchor) ? { map } : null
 }
 
-/** What is chosen of an item: at first the model that the list is filtered by, and the element that was found. */
+/** What is chosen of an item: at first a model that has what was searched and is in the filter, and the element found. */
 function choiceOf(item, path = "") {
   const { map, entry, anchor } = item
   const key = `${map.id} ${anchor} ${path}`
-  if (!browser.choices.has(key)) {
-    const models = modelsOf(map, entry)
-    const model = models.find((one) => browser.state.chosen.model?.includes(one)) ?? models[0]
-    const index = path
-      ? elementsOf(map, entry, model).find((one) => registerOf(map, entry, model, one).path === path)
-      : undefined
-    browser.choices.set(key, { model, index, view: "", words: null, text: null })
+  const choice = browser.choices.get(key) ?? { model: "", view: "", words: null, text: null }
+  const { query } = browser.state
+  if (choice.query !== query) {
+    const having = havingModels(item, query)
+    if (!having.includes(choice.model)) {
+      const model = having.find((one) => browser.state.chosen.model?.includes(one)) ?? having[0]
+      const isIt = (one) => registerOf(map, entry, model, one).path === path
+      const index = path ? elementsOf(map, entry, model).find(isIt) : undefined
+      Object.assign(choice, { model, index, words: null, text: null })
+    }
+    Object.assign(choice, { query, having })
   }
-  return browser.choices.get(key)
+  browser.choices.set(key, choice)
+  return choice
+}
+
+/** The models of an item that have what a query finds in it; all if it is not found so. */
+function havingModels(item, query) {
+  const models = modelsOf(item.map, item.entry)
+  const found = query && search(query).items.find((one) => one.item === item)?.models
+  const having = models.filter((one) => !found || found.includes(one))
+  return having.length ? having : models
 }
 
 /** Show the state. */

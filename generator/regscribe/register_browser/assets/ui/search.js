@@ -24,10 +24,15 @@ function addressBook(items) {
 }
 
 /**
- * @returns {{items: {item: Item, rank: number, why: string[], path?: string}[], readings: {text: string, count: number}[]}}
- *   the best first, with the path of the element that was meant; readings are the meanings of what looks like an address, with the registers that each has
+ * @returns {{items: {item: Item, rank: number, why: string[], path?: string, models?: string[]}[], readings: {text: string, count: number}[]}}
+ *   the best first, with the path of the element that was meant, and the models that have what was found; readings are the meanings of what looks like an address, with the registers that each has
  */
 function search(query) {
+  if (browser.searched?.query !== query) browser.searched = { query, ...searched(query) }
+  return browser.searched
+}
+
+function searched(query) {
   const tokens = query.toLowerCase().split(/\s+/).filter(Boolean)
   const readings = []
   let found = browser.items.map((item) => ({ item, rank: 0, why: [] }))
@@ -42,7 +47,13 @@ function search(query) {
 }
 
 const joined = (hit, more) =>
-  more && { item: hit.item, rank: hit.rank + more.rank, why: [...hit.why, ...more.why], path: more.path ?? hit.path }
+  more && {
+    item: hit.item,
+    rank: hit.rank + more.rank,
+    why: [...hit.why, ...more.why],
+    path: more.path ?? hit.path,
+    models: hit.models?.filter((one) => !more.models || more.models.includes(one)) ?? more.models,
+  }
 
 /** The items at the addresses that a token can mean; `readings` gets each meaning. */
 function addressHits(token, readings) {
@@ -54,10 +65,12 @@ function addressHits(token, readings) {
       const known = found.get(hit.item) ?? {
         rank: EXACT_ADDRESS - hit.word - LESS_PLAIN * place,
         why: [],
+        models: [],
         path: hit.item.entry.elements ? hit.place.path : undefined,
       }
       const why = placeText(hit)
       if (!known.why.includes(why)) known.why.push(why)
+      known.models.push(...hit.place.models)
       found.set(hit.item, known)
     }
   }
@@ -115,8 +128,13 @@ function textHit(item, token) {
   let best = null
   for (const text of item.texts) {
     const rank = textRank(text, token)
+    if (rank && rank === best?.rank) best.models = [...best.models, ...text.models]
     if (rank && (!best || rank > best.rank))
-      best = { rank, why: text.kind === "name" || text.kind === "id" ? [] : [`${text.kind}: ${text.text}`] }
+      best = {
+        rank,
+        why: text.kind === "name" || text.kind === "id" ? [] : [`${text.kind}: ${text.text}`],
+        models: text.models,
+      }
   }
   if (!best && item.map.title.toLowerCase().includes(token)) return { rank: 1, why: [] }
   return best ?? startHit(item, token)
@@ -134,7 +152,7 @@ function textRank({ kind, lower, words }, token) {
 /** How many errata of a map have all words of a query. */
 function errataWith(map, query) {
   const tokens = query.toLowerCase().split(/\s+/).filter(Boolean)
-  const texts = preparedTexts(erratumTexts(map.about?.errata))
+  const texts = preparedTexts(erratumTexts(map.about?.errata), [])
   return tokens.length ? texts.filter((text) => tokens.every((token) => textRank(text, token))).length : 0
 }
 

@@ -6,6 +6,7 @@ const browser = {
   maps: [],
   items: [],
   book: new Map(),
+  searched: null, // the last query with what it found
   state: { query: "", chosen: {}, open: "", map: "", element: "" },
   open: null,
   opened: new Set(matchMedia("(min-width: 1101px)").matches ? ["model", "access"] : []),

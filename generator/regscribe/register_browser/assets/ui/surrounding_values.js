@@ -93,12 +93,12 @@ function memberPicker(members, value, tell) {
   return picker([["", "not known"], ...options], value, tell)
 }
 
-/** A list to pick from: pairs of value and text. */
+/** A list to pick from: values, their texts, and whether one cannot be picked. */
 function picker(options, value, tell, attributes = {}) {
   const made = element(
     "select",
     { ...attributes, on: { change: () => tell(made.value) } },
-    options.map(([one, text]) => element("option", { value: one, selected: one === value }, text)),
+    options.map(([one, text, isOff]) => element("option", { value: one, selected: one === value, disabled: isOff }, text)),
   )
   return made
 }
