@@ -75,11 +75,11 @@ def violation(error: "ValidationError") -> Violation:
     return Violation(str(error.validator), tuple(error.absolute_path), schema, error.validator_value, error.instance)
 
 
-def complaints(error: Violation) -> Iterator[Complaint]:
-    """Yield the messages of one violation: one for each key concerned."""
+def complaints(error: Violation, places: Mapping[str, Sequence[str]]) -> Iterator[Complaint]:
+    """Yield the messages of one violation: one for each key concerned; `places` are what has a key, by the key."""
     kind = error.kind
     if kind == "additionalProperties":
-        yield from _unknown_keys(error)
+        yield from _unknown_keys(error, places)
     elif kind in {"required", "dependentRequired"}:
         yield from _missing_keys(error)
     elif kind == "not":
@@ -97,7 +97,7 @@ def complaints(error: Violation) -> Iterator[Complaint]:
         yield _not_allowed(error)
 
 
-def _unknown_keys(error: Violation) -> Iterator[Complaint]:
+def _unknown_keys(error: Violation, places: Mapping[str, Sequence[str]]) -> Iterator[Complaint]:
     schema = error.schema
     known = list(schema.get("properties", ()))
     patterns = schema.get("patternProperties", ())
@@ -112,7 +112,8 @@ def _unknown_keys(error: Violation) -> Iterator[Complaint]:
         else:
             said = f"unknown key {shown} in {title(schema)}"
             meant = _meant(key, schema["properties"], error.instance)
-            advice = f"did you mean `{meant}`?" if meant else f"the keys here are: {', '.join(known)}"
+            elsewhere = f"{shown} is a key of: {', '.join(places[key])}; " if key in places else ""
+            advice = f"did you mean `{meant}`?" if meant else f"{elsewhere}the keys here are: {', '.join(known)}"
             yield Complaint(rules.UNKNOWN_KEY, path, said, advice, at_key=True, replacement=meant)
 
 

@@ -44,6 +44,28 @@ def validator(language: str = MAP) -> "Validator":
     return checks(_inline(schema, schema.get("$defs", {}), {}))
 
 
+@cache
+def places(language: str) -> dict[str, list[str]]:
+    """Name what has each key of a language, by the key: the titles of its schemas."""
+    found: dict[str, dict[str, None]] = {}
+    for title, key in _keys(schema_json(language), ""):
+        found.setdefault(key, {})[title] = None
+    return {key: list(titles) for key, titles in found.items()}
+
+
+def _keys(node: Any, around: str) -> Iterator[tuple[str, str]]:  # noqa: ANN401  JSON is any
+    """The keys of a schema and those within it, each with the title of the nearest schema that has one."""
+    if isinstance(node, dict):
+        title = node["title"] if isinstance(node.get("title"), str) else around
+        properties = node.get("properties")
+        yield from ((title, key) for key in (properties if isinstance(properties, dict) else ()))
+        for value in node.values():
+            yield from _keys(value, title)
+    elif isinstance(node, list):
+        for value in node:
+            yield from _keys(value, around)
+
+
 def _inline(node: Any, definitions: Mapping[str, Any], done: dict[tuple[int, str], Any], title: str = "") -> Any:  # noqa: ANN401  JSON is any
     """Put definitions in place of references: no look-up at run time, and a key's own title stands at its errors.
 

@@ -6,7 +6,7 @@ from regscribe.model import Diagnostic, Span
 from regscribe.schema.messages import complaints, violation
 from regscribe.schema.quick_check import certainly_valid
 from regscribe.schema.rules import TOO_MANY_ERRORS
-from regscribe.schema.schemas import MAP, validator
+from regscribe.schema.schemas import MAP, places, validator
 from regscribe.source import Document
 
 MAX_ERRORS = 300
@@ -23,7 +23,7 @@ def validate(document: Document, *, language: str = MAP) -> list[Diagnostic]:
     errors.sort(key=lambda error: len(error.absolute_schema_path))  # the outermost knows all types that are allowed
     found: dict[tuple[str, Span, str], Diagnostic] = {}
     for error in errors:
-        for complaint in islice(complaints(violation(error)), MAX_ERRORS):
+        for complaint in islice(complaints(violation(error), places(language)), MAX_ERRORS):
             find = document.key_span if complaint.at_key else document.span
             span = find(complaint.path)
             said = complaint.rule, complaint.message, span, complaint.advice

@@ -1,11 +1,11 @@
 """Maps to simulate, by file or id: compiled once in a process, and anew when their files change."""
 
-from difflib import get_close_matches
 from pathlib import Path
 from threading import Lock
 
 from regscribe.map_files import LOCAL, file_of, ids_in, is_file, shipped
 from regscribe.model import RegisterMap
+from regscribe.model.nearest import nearest
 from regscribe.simulate.errors import SimulatorError
 
 SHOWN = 3
@@ -61,8 +61,8 @@ def _path(name: str) -> Path:
     found = Path(name) if is_file(name) else file_of(name)
     if found is None:
         known = sorted(set(ids_in((LOCAL, shipped()))))
-        near = get_close_matches(name, known, n=1)
-        meant = f"did you mean {near[0]!r}?" if near else f"known are {', '.join(known)}"
+        near = nearest(name, known)
+        meant = f"did you mean {near!r}?" if near else f"known are {', '.join(known)}"
         message = f"there is no map {name[:200]!r}: neither a file nor a map id; {meant}"
         raise SimulatorError(message)
     return found

@@ -116,11 +116,18 @@ def test_a_mistake_elsewhere_is_found_at_its_place(text: str, expected: str) -> 
         ("address: 4", "`at`"),
         ("values: {0: a}", "`enum`"),
         ("acces: r", "`access`"),
+        ("emun: {0: a}", "`enum`"),
         ("fc: 4", "`space`"),
     ],
 )
 def test_an_unknown_key_asks_whether_another_was_meant(keys: str, advice: str) -> None:
     assert f"did you mean {advice}?" in in_register(keys)[0].help
+
+
+def test_a_key_of_another_place_is_told_where_it_stands() -> None:
+    help_text = in_register("gap_characters: 3")[0].help
+    assert help_text.startswith("`gap_characters` is a key of: serial line; the keys here are: at, name, ")
+    assert in_register("qqq: 3")[0].help.startswith("the keys here are: ")
 
 
 @pytest.mark.parametrize(

@@ -1,7 +1,7 @@
 """`regscribe explain`: a rule with a bad and a good example, or the list of all rules."""
 
 from collections.abc import Iterator
-from difflib import SequenceMatcher, get_close_matches
+from difflib import SequenceMatcher
 
 import click
 
@@ -14,6 +14,7 @@ from regscribe.cli.shared.completion_values import complete_rule
 from regscribe.cli.shared.diagnostic_text import STYLES
 from regscribe.cli.shared.output import Piece, print_json, refuse, show, show_table
 from regscribe.model import Rule
+from regscribe.model.nearest import nearest
 
 TITLES = {
     "source": "the text of a map",
@@ -69,9 +70,9 @@ def _show_all() -> None:
 
 
 def _meant(rule_id: str, rules: dict[str, Rule]) -> str:
-    near = get_close_matches(rule_id.upper(), rules, n=1)
+    near = nearest(rule_id.upper(), rules)
     if near:
-        return f"; did you mean `{near[0]}` ({rules[near[0]].title})?"
+        return f"; did you mean `{near}` ({rules[near].title})?"
     return f": rules have ids from {min(rules)} to {max(rules)}, and `regscribe explain` lists them"
 
 

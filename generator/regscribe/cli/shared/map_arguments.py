@@ -2,12 +2,12 @@
 
 import os
 from collections.abc import Iterable, Sequence
-from difflib import get_close_matches
 from pathlib import Path
 
 from regscribe.cli.shared.output import refuse
 from regscribe.cli.shared.standard_input import is_stdin
 from regscribe.map_files import ENDINGS, IMPORT, LIBRARY, LOCAL, MAP, file_of, files_below, ids_in, kind_of, shipped
+from regscribe.model.nearest import nearest
 
 
 def find_maps(arguments: Sequence[str], *, libraries: bool = False) -> list[Path]:
@@ -66,5 +66,5 @@ def _files_below(folder: Path, kinds: Sequence[str]) -> list[Path]:
 
 def did_you_mean(name: str, known: Iterable[str]) -> str:
     """The end of a message about an unknown name: `; did you mean `x`?`, or nothing."""
-    near = get_close_matches(name, list(known), n=1)
-    return f"; did you mean `{near[0]}`?" if near else ""
+    meant = nearest(name, known)
+    return f"; did you mean `{meant}`?" if meant else ""

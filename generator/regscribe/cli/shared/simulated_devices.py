@@ -4,7 +4,6 @@ import re
 import sys
 from collections.abc import Iterable, Mapping
 from dataclasses import dataclass, fields, replace
-from difflib import get_close_matches
 from pathlib import Path
 from typing import Any
 
@@ -16,6 +15,7 @@ from regscribe.cli.shared.diagnostic_text import findings
 from regscribe.cli.shared.map_arguments import did_you_mean, find_map
 from regscribe.cli.shared.output import raised_as, refuse, show
 from regscribe.model import RegisterMap
+from regscribe.model.nearest import nearest
 from regscribe.simulate import SimulatedDevice, SimulatorError, ThermalProcess
 from regscribe.tools.live.givens import Given, given_of
 from regscribe_runtime.values.blocks import bases_in
@@ -168,8 +168,8 @@ def _model(model: str | None, register_map: RegisterMap) -> str:
         refuse(f"--model is missing: {register_map.id} has {', '.join(names)}")
     if model not in names:
         folded = {name.casefold(): name for name in names}
-        near = get_close_matches(model.casefold(), folded, n=1)
-        hint = f"; did you mean `{folded[near[0]]}`?" if near else ""
+        near = nearest(model.casefold(), folded)
+        hint = f"; did you mean `{folded[near]}`?" if near else ""
         refuse(f"{register_map.id} has no model `{model}`: it has {', '.join(names)}{hint}")
     return model
 

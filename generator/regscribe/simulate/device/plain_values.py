@@ -2,10 +2,10 @@
 
 from collections.abc import Iterable
 from decimal import Decimal, InvalidOperation, localcontext
-from difflib import get_close_matches
 from fractions import Fraction
 
 from regscribe.model import BitField, Enum, Kind, Register, Sentinel, parse, show
+from regscribe.model.nearest import nearest
 from regscribe.reference import choose, existing_members, part_bits, part_value
 from regscribe.reference.codec import PATTERNS
 from regscribe.simulate.device.device_plan import Stored
@@ -147,5 +147,5 @@ def fault_bits(field: BitField, value: str) -> int:
 
 def meant(name: str, known: Iterable[str]) -> str:
     """Return a hint at the name that was probably meant; empty if none is near."""
-    near = get_close_matches(name.lower(), known, n=1)
-    return f"; did you mean `{near[0]}`?" if near else ""
+    near = nearest(name.lower(), known)
+    return f"; did you mean `{near}`?" if near else ""

@@ -1,10 +1,15 @@
 """Errors in names of links, devices, models and registers, with the name that was probably meant."""
 
+import re
 from collections.abc import Iterable
-from difflib import get_close_matches
+
+from regscribe.model.nearest import near
 
 MOST_NAMED = 12
 """Names that a message lists before it says how many more there are."""
+
+MOST_MEANT = 5
+"""Names that a message asks about, of those that are nearly alike."""
 
 MOST_SHOWN = 100
 """Characters of the given text that a message repeats."""
@@ -22,12 +27,14 @@ def unknown(what: str, name: str, known: Iterable[str], *, where: str = "") -> s
 
 
 def meant(name: str, known: Iterable[str]) -> str:
-    """The end of a message: `; did you mean `x`?`, else the names there are, else nothing."""
+    """The end of a message: `; did you mean `x` or `y`?`, else the names there are, else nothing."""
     names = list(known)
     folded = {one.casefold(): one for one in reversed(names)}
-    near = get_close_matches(name[:MOST_SHOWN].casefold(), folded, n=1)
-    if near:
-        return f"; did you mean `{folded[near[0]]}`?"
+    alike: dict[str, str] = {}
+    for one in near(name.casefold(), folded, most=MOST_MEANT):
+        alike.setdefault(re.sub(r"\[\d+\]", "[]", one), f"`{folded[one]}`")  # of elements of an array the nearest
+    if found := list(alike.values()):
+        return f"; did you mean {' or '.join(filter(None, (', '.join(found[:-1]), found[-1])))}?"
     if not names:
         return ""
     more = f" and {len(names) - MOST_NAMED} more" if len(names) > MOST_NAMED else ""

@@ -8,6 +8,7 @@ from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
 from typing import Any, NamedTuple, Protocol
 
+from regscribe.model.nearest import near
 from regscribe.tools.live import value_text
 from regscribe.tools.live.addresses import found_at, is_address, spelled
 from regscribe.tools.live.errors import MOST_NAMED, TargetError, unknown
@@ -99,7 +100,8 @@ class NamedRegisters:
             return unknown("part", part, parts, where=f"in {path} of {self.model}")
         known = [*_nearest(name, self.registers), *self.computed, *self.groups]
         text = unknown("register or group", name, known, where=f"in {self.model}")
-        return f"{text}{_listed('groups', self.groups)}"
+        alike = near(name, self.groups, most=MOST_NAMED)
+        return f"{text}{_listed('groups', dict.fromkeys((*alike, *self.groups)))}"
 
 
 def _is_below(path: str, name: str) -> bool:

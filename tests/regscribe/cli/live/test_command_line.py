@@ -81,7 +81,8 @@ def test_a_text_of_the_device_does_not_steer_the_terminal(cli: Cli, serve: Calla
     ("name", "said"),
     [
         ("procss_value", "did you mean `process_value`?"),
-        ("segments[1].ramp", "did you mean `segments[1].ramp_time`?"),
+        ("segments[1].ramp", "did you mean `segments[1].ramp_time`, `segments[1].ramp_event` or `segments[1]`?"),
+        ("setpont", "did you mean `setpoints` or `setpoint_ram`?; groups: setpoints, communication, "),
         ("segments[9]", "did you mean `segments["),
         ("alarms", "did you mean `alarm`?"),
         ("", "there is no register or group ``"),
