@@ -21,7 +21,9 @@ NOTIFICATIONS = {
     lsp.TEXT_DOCUMENT_DID_CHANGE: documents.changed,
     lsp.TEXT_DOCUMENT_DID_CLOSE: documents.closed,
     lsp.TEXT_DOCUMENT_DID_SAVE: documents.saved,
+    lsp.WORKSPACE_DID_CHANGE_WATCHED_FILES: documents.changed_on_disk,
     lsp.WORKSPACE_DID_CHANGE_CONFIGURATION: documents.configured,
+    lsp.INITIALIZED: documents.watching,
     lsp.INITIALIZE: documents.initialized,
 }
 REQUESTS = {

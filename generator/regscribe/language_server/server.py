@@ -89,6 +89,11 @@ class MapServer(LanguageServer):
         for one in concerned:
             self._schedule(one)
 
+    def check_all(self) -> None:
+        """Compile all open files once more, after a while."""
+        for one in self.session.files.unsaved:
+            self._schedule(one)
+
     def _schedule(self, path: Path) -> None:
         if waiting := self._waiting.pop(path, None):
             waiting.cancel()

@@ -25,6 +25,7 @@ async def client() -> AsyncIterator[LanguageClient]:
     assert isinstance(found, LanguageClient)
     found.feature(lsp.WORKSPACE_CODE_LENS_REFRESH)(lambda _: None)
     found.feature(lsp.WORKSPACE_INLAY_HINT_REFRESH)(lambda _: None)
+    found.feature(lsp.CLIENT_REGISTER_CAPABILITY)(lambda _: None)
     await found.initialize_session(lsp.InitializeParams(client_capabilities("visual-studio-code")))
     yield found
     await found.shutdown_session()
@@ -196,6 +197,39 @@ async def test_a_library_that_is_being_changed_is_judged_with_the_maps_that_use_
 
 
 @pytest.mark.asyncio
+async def test_what_another_program_does_to_a_library_is_seen_in_the_maps_that_use_it(
+    client: LanguageClient, tmp_path: Path
+) -> None:
+    folder = tmp_path / "maps" / "acme"
+    folder.mkdir(parents=True)
+    library, own = folder / "common.library.yaml", Editor(client, folder / "one.yaml")
+
+    async def told(kind: lsp.FileChangeType) -> list[lsp.Diagnostic]:
+        event = lsp.FileEvent(library.as_uri(), kind)
+        client.workspace_did_change_watched_files(lsp.DidChangeWatchedFilesParams([event]))
+        return await own.found()
+
+    (missing,) = await own.write(HEAD.replace("conditions:", "uses: [acme/common]\nconditions:", 1))
+    assert missing.code == "RS0501"
+    library.write_text(
+        "format: 1\nlibrary: {id: acme/common, title: Common}\nenums:\n  shared: {0: a}\n", encoding="utf-8"
+    )
+    assert "RS0501" not in [one.code for one in await told(lsp.FileChangeType.Created)]
+    library.unlink()
+    assert [one.code for one in await told(lsp.FileChangeType.Deleted)] == ["RS0501"]
+
+
+@pytest.mark.asyncio
+async def test_a_new_version_without_a_change_is_no_fault(editor: Editor, capfd: pytest.CaptureFixture[str]) -> None:
+    await editor.write(HEAD)
+    version = lsp.VersionedTextDocumentIdentifier(2, editor.uri)
+    editor.client.text_document_did_change(lsp.DidChangeTextDocumentParams(version, []))
+    asked = lsp.DocumentSymbolParams(editor.document)
+    assert await editor.client.text_document_document_symbol_async(asked)
+    assert "IndexError" not in capfd.readouterr().err
+
+
+@pytest.mark.asyncio
 async def test_files_that_are_no_maps_get_no_findings(client: LanguageClient, tmp_path: Path) -> None:
     other = Editor(client, tmp_path / "compose.yaml")
     assert await other.write("services: {web: {image: nginx}}\n") == []
@@ -210,8 +244,9 @@ def test_nothing_but_the_protocol_is_on_standard_output(tmp_path: Path) -> None:
         body = json.dumps({"jsonrpc": "2.0", **content}).encode()
         return b"Content-Length: %d\r\n\r\n%s" % (len(body), body)
 
-    capabilities = {"processId": None, "rootUri": None, "capabilities": {}}
-    sent = message(id=1, method="initialize", params=capabilities) + message(method="initialized", params={})
+    watching = {"workspace": {"didChangeWatchedFiles": {"dynamicRegistration": True}}}
+    start = {"processId": None, "rootUri": None, "capabilities": watching}
+    sent = message(id=1, method="initialize", params=start) + message(method="initialized", params={})
     sent += message(id=2, method="textDocument/nothing", params={}) + message(id=3, method="shutdown")
     sent += message(method="exit")
     done = subprocess.run(COMMAND, input=sent, capture_output=True, timeout=60, check=False, cwd=tmp_path)  # noqa: S603 - our own
@@ -221,6 +256,7 @@ def test_nothing_but_the_protocol_is_on_standard_output(tmp_path: Path) -> None:
         length = int(dict(line.split(b": ") for line in head.split(b"\r\n"))[b"Content-Length"])
         assert json.loads(rest[:length])["jsonrpc"] == "2.0"
         rest = rest[length:]
+    assert b'"**/*.yaml"' in done.stdout, "it asks to be told of files that other programs change"
     assert done.returncode == 0
 
 
