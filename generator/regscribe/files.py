@@ -69,6 +69,10 @@ def _checked(document: Document | None, found: list[Diagnostic], *, language: st
     raise FileError("\n".join([f"{what}:", *lines, *more]))
 
 
+class UnwrittenError(FileError):
+    """A file that cannot be written: a full disk, a folder that is missing or closed to the user."""
+
+
 class OneLine(dict[str, Any]):
     """A mapping that stands on one line."""
 
@@ -148,8 +152,8 @@ def save(path: Path, content: str | bytes, *, new: bool = False) -> None:
     """Write a file (a text as UTF-8) beside its place, flush it to the disk and move it into its place.
 
     What a link leads to is written, and the link stays; a device or a pipe is written to and never replaced. Raises
-    FileError where that fails (a full disk); a file that was there before is then as it was. With `new` it also fails
-    where there is a file, whoever else writes one at the same time.
+    UnwrittenError where that fails (a full disk); a file that was there before is then as it was. With `new` it also
+    fails where there is a file, whoever else writes one at the same time.
     """
     octets = content.encode() if isinstance(content, str) else content
     try:
@@ -159,7 +163,7 @@ def save(path: Path, content: str | bytes, *, new: bool = False) -> None:
             _replace(path.resolve(), octets, new=new)
     except (OSError, RuntimeError) as error:  # a loop of links is a RuntimeError before Python 3.13
         message = f"{path} cannot be written ({getattr(error, 'strerror', None) or error}); nothing of it was changed"
-        raise FileError(message) from None
+        raise UnwrittenError(message) from None
 
 
 def _replace(path: Path, octets: bytes, *, new: bool) -> None:

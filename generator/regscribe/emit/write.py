@@ -34,6 +34,10 @@ class WriteError(Exception):
     """The output directory or a path in it cannot be used; the message says which and why. Nothing was written."""
 
 
+class UnwrittenFilesError(WriteError):
+    """Files that the system refuses to write: a full disk, a folder that is closed to the user."""
+
+
 @dataclass(frozen=True, slots=True)
 class Report:
     """Changes that were made, or with `check` are to be made: paths, and the unified diff (empty without `check`)."""
@@ -169,6 +173,7 @@ def _remove(path: str, out: Path) -> None:
         raise _refusal(out / path, error) from None
 
 
-def _refusal(target: Path, error: OSError) -> WriteError:
+def _refusal(target: Path, error: OSError) -> UnwrittenFilesError:
     where = error.filename or target
-    return WriteError(f"cannot write {target}: {where}: {error.strerror or error}; choose another directory with --out")
+    reason = error.strerror or error
+    return UnwrittenFilesError(f"cannot write {target}: {where}: {reason}; choose another directory with --out")

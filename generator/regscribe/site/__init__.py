@@ -7,7 +7,7 @@ from tempfile import TemporaryDirectory
 
 from regscribe import register_browser
 from regscribe.model import RegisterMap
-from regscribe.site.building import SiteError, build, place, usable
+from regscribe.site.building import SiteError, UnwrittenSiteError, build, place, usable
 from regscribe.site.built import Fault
 from regscribe.site.config import configuration
 from regscribe.site.nav import navigation
@@ -17,7 +17,7 @@ from regscribe.site.staging import BROWSER, Around, stage
 FIRST = {(), (GUIDES,)}
 """Sections of a project's own pages that stand before the references; the others stand behind."""
 
-__all__ = ["Fault", "Site", "SiteError", "make"]
+__all__ = ["Fault", "Site", "SiteError", "UnwrittenSiteError", "make"]
 
 
 @dataclass(frozen=True, slots=True)

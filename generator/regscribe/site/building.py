@@ -29,6 +29,10 @@ class SiteError(Exception):
     """The site cannot be made: Zensical is missing or failed, or the place for the site is taken."""
 
 
+class UnwrittenSiteError(SiteError):
+    """The site cannot be put in its place: a full disk, a folder that is closed to the user."""
+
+
 def usable(out: Path) -> None:
     """Raise SiteError unless a site can be put at `out`: it is free, empty or an earlier site."""
     if find_spec("zensical") is None:
@@ -82,8 +86,12 @@ def _at_its_page(fault: Fault, pages: Mapping[str, str]) -> Fault:
 
 
 def place(work: Path, out: Path) -> None:
-    """Put the site that was built in the place of the earlier one."""
-    if out.is_dir():
-        shutil.rmtree(out)
-    out.parent.mkdir(parents=True, exist_ok=True)
-    shutil.move(work / "site", out)
+    """Put the site that was built in the place of the earlier one. Raises UnwrittenSiteError."""
+    try:
+        if out.is_dir():
+            shutil.rmtree(out)
+        out.parent.mkdir(parents=True, exist_ok=True)
+        shutil.move(work / "site", out)
+    except OSError as error:
+        message = f"{out} cannot be written ({error.strerror or error})"
+        raise UnwrittenSiteError(message) from None

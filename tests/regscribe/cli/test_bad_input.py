@@ -100,23 +100,23 @@ def test_a_slip_is_answered_with_what_was_probably_meant(cli: Callable[..., Any]
     assert f"did you mean `{meant}`" in cli(*arguments.split()).err
 
 
-def test_an_output_directory_that_is_a_file_exits_1(cli: Callable[..., Any]) -> None:
+def test_an_output_directory_that_is_a_file_exits_74(cli: Callable[..., Any]) -> None:
     Path("out").write_text("in the way")
     result = cli("generate", "--out", "out")
-    assert result.code == 1
+    assert result.code == 74
     assert "Error: cannot write out/" in result.err
     assert Path("out").read_text() == "in the way"
 
 
-def test_an_output_directory_that_cannot_be_written_exits_1(cli: Callable[..., Any]) -> None:
+def test_an_output_directory_that_cannot_be_written_exits_74(cli: Callable[..., Any]) -> None:
     result = cli("generate", "--out", "/proc/nowhere")
-    assert result.code == 1
+    assert result.code == 74
     assert "choose another directory with --out" in result.err
 
 
-def test_a_folder_for_a_new_map_that_cannot_be_written_exits_1(cli: Callable[..., Any]) -> None:
+def test_a_folder_for_a_new_map_that_cannot_be_written_exits_74(cli: Callable[..., Any]) -> None:
     result = cli("new", "acme/oven", "--dir", "/proc/nowhere")
-    assert result.code == 1
+    assert result.code == 74
     assert "choose another folder with --dir" in result.err
 
 

@@ -170,7 +170,7 @@ def test_a_format_for_a_device_needs_to_know_where_it_answers(cli: Cli) -> None:
 @pytest.mark.parametrize("arguments", [("-o", "gone/oven.h"), ("-o", "oven.h", "--report-to", "gone/losses")])
 def test_a_place_that_cannot_be_written_is_told_in_one_message(cli: Cli, arguments: tuple[str, ...]) -> None:
     done = cli(*HEADER, *arguments)
-    assert (done.code, done.out) == (1, "")
+    assert (done.code, done.out) == (74, "")
     assert "gone/" in done.err
     assert "cannot be written (No such file or directory)" in done.err
 

@@ -50,7 +50,7 @@ def test_a_project_file_that_cannot_be_written_is_told(
 
     monkeypatch.setattr("tempfile.mkstemp", full)
     said = cli("generate", "--project", "acme-drivers")
-    assert said.code == 1
+    assert said.code == 74
     assert "pyproject.toml cannot be written (No space left on device)" in said.err
 
 

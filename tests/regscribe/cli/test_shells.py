@@ -111,4 +111,4 @@ def test_pages_are_written_into_a_new_folder(cli: Cli, folder: Path) -> None:
     assert (folder / "share/man1/regscribe-read.1").read_text(encoding="utf-8") == PAGES["regscribe-read.1"]
     (folder / "file").write_text("")
     refused = cli("man", "-o", "file/man1")
-    assert (refused.code, "cannot make the folder file/man1" in refused.err) == (1, True)
+    assert (refused.code, "cannot make the folder file/man1" in refused.err) == (74, True)

@@ -114,6 +114,15 @@ def test_a_backup_from_standard_input_is_read_and_refused_with_its_place(cli: Cl
         assert "standard input:2:1" in result.err
 
 
+def test_the_state_of_a_simulated_device_is_read_from_standard_input(cli: Cli, given: Callable[..., None]) -> None:
+    begin = ("simulate", "athena/series-c", "--model", "16C", "--tcp", "127.0.0.1:0")
+    given("format: 1\nnothing: 1\n")
+    result = cli(*begin, "--state", "-")
+    assert (result.code, "standard input is no state" in result.err) == (1, True)
+    result = cli(*begin, "--save", "-")
+    assert (result.code, "standard output tells the requests" in result.err) == (2, True)
+
+
 def test_a_dash_is_standard_output(cli: Cli, given: Callable[..., None], oven: Path) -> None:
     arguments = ("export", oven, "--format", "csv")
     assert cli(*arguments, "-o", "-").out == cli(*arguments).out

@@ -6,9 +6,10 @@ import click
 
 from regscribe.cli.shared.diagnostic_text import count
 from regscribe.cli.shared.exit_codes import USAGE
-from regscribe.cli.shared.live_report import Failure, heading, refused_if
-from regscribe.cli.shared.output import alert, detail, print_json, remark, tell
-from regscribe.cli.shared.output_file import none_for_stdout
+from regscribe.cli.shared.failure import Failure
+from regscribe.cli.shared.live_report import heading, refused_if
+from regscribe.cli.shared.output import alert, print_json, remark, tell
+from regscribe.cli.shared.output_file import none_for_stdout, save
 from regscribe.cli.shared.settings_common import settings_reported, taken
 from regscribe.cli.shared.target_options import HELP, identity_option, opened, target_options
 from regscribe.tools import settings
@@ -19,7 +20,8 @@ from regscribe.tools.live.target import Target
     help=f"""Keep all settings of a device in FILE: values by name with their units, and the words that transmit them,
 in readable YAML; without FILE, or with -, on standard output.\n\n{HELP}""",
     epilog="Example: regscribe backup oven oven.yaml\n\n"
-    "Exit code 0: kept, 1: the device refuses, 2: wrong usage or the file cannot be written, 3: nobody answers.",
+    "Exit code 0: kept, 1: the device refuses, 2: wrong usage, 3: nobody answers, "
+    "74: the file cannot be written.",
 )
 @target_options
 @click.argument(
@@ -34,9 +36,8 @@ def command(*, target: Target, as_json: bool, path: Path | None, force: bool, id
         backup = taken(device, str(target.link))
     with settings_reported():
         text = settings.to_text(backup)
-        if path is not None:
-            settings.save(path, text)
-            detail(f"wrote {path}")
+    if path is not None:
+        save(path, text)
     failed = {name: saved.error for name, saved in backup.settings() if saved.value is None}
     number = len(list(backup.settings()))
     if as_json:

@@ -7,8 +7,8 @@ import click
 from regscribe import register_browser
 from regscribe.cli.shared.compiled_maps import compiled_maps
 from regscribe.cli.shared.map_arguments import find_maps
-from regscribe.cli.shared.output import raised_as, tell
-from regscribe.files import FileError, save
+from regscribe.cli.shared.output import tell
+from regscribe.cli.shared.output_file import none_for_stdout, save
 
 
 @click.command(
@@ -17,7 +17,12 @@ from regscribe.files import FileError, save
 )
 @click.argument("maps", nargs=-1, metavar="[MAP]...")
 @click.option(
-    "-o", "--out", type=click.Path(path_type=Path), metavar="FILE", help="Where it goes; else standard output."
+    "-o",
+    "--out",
+    type=click.Path(path_type=Path),
+    callback=none_for_stdout,
+    metavar="FILE",
+    help="Where it goes; else standard output.",
 )
 def command(*, maps: tuple[str, ...], out: Path | None) -> int:
     """Make one HTML file that shows the registers of maps: search, details, and a calculator raw <-> value.
@@ -29,6 +34,5 @@ def command(*, maps: tuple[str, ...], out: Path | None) -> int:
     if out is None:
         tell(text)
     else:
-        with raised_as(click.ClickException, FileError):
-            save(out, text)
+        save(out, text)
     return 0

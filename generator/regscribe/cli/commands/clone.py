@@ -7,7 +7,8 @@ import click
 from regscribe.cli.shared import settings_common
 from regscribe.cli.shared.completion_values import complete_target
 from regscribe.cli.shared.exit_codes import REFUSED, UNKNOWN_STATE
-from regscribe.cli.shared.live_report import Failure, refused_if, reported
+from regscribe.cli.shared.failure import Failure
+from regscribe.cli.shared.live_report import refused_if, reported
 from regscribe.cli.shared.long_work import Shield, shielded
 from regscribe.cli.shared.output import alert, print_json
 from regscribe.cli.shared.settings_common import RestoreOptions, include_option

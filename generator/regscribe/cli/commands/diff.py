@@ -6,7 +6,8 @@ import click
 
 from regscribe.cli.shared.completion_values import complete_target
 from regscribe.cli.shared.exit_codes import USAGE
-from regscribe.cli.shared.live_report import Failure, refused_if, reported
+from regscribe.cli.shared.failure import Failure
+from regscribe.cli.shared.live_report import refused_if, reported
 from regscribe.cli.shared.output import alert, print_json, remark, show_table
 from regscribe.cli.shared.settings_common import backup_of
 from regscribe.cli.shared.target_options import driver_options

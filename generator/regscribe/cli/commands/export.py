@@ -8,12 +8,13 @@ import click
 
 from regscribe import plugins
 from regscribe.cli.shared.compiled_maps import compiled_maps
+from regscribe.cli.shared.failure import unwritten
 from regscribe.cli.shared.loss_report import FORMS, report_of
 from regscribe.cli.shared.map_arguments import find_maps
 from regscribe.cli.shared.output import raised_as, tell, tell_bytes, warn
 from regscribe.cli.shared.output_file import none_for_stdout, save
 from regscribe.cli.shared.plugin_options import PluginCommand, own_options
-from regscribe.emit.write import WriteError, write
+from regscribe.emit.write import UnwrittenFilesError, WriteError, write
 from regscribe.files import FileError
 from regscribe.losses import Exported
 from regscribe.plugins import OptionError, PluginError
@@ -109,7 +110,8 @@ def _put(form: str, made: Exported, out: Path | None) -> None:
 
 def _write_folder(form: str, files: Mapping[str, str | bytes], out: Path) -> None:
     try:
-        write(files, out)
+        with unwritten(UnwrittenFilesError):
+            write(files, out)
     except WriteError as error:
         message = f"the exporter {form}: {error}"
         raise PluginError(message) from None

@@ -10,6 +10,7 @@ from regscribe import files, source
 from regscribe.cli.shared.diagnostic_text import count, findings
 from regscribe.cli.shared.map_arguments import find_maps
 from regscribe.cli.shared.output import raised_as, refuse, show, tell, tell_bytes, warn
+from regscribe.cli.shared.output_file import save
 from regscribe.cli.shared.standard_input import STDIN, input_bytes
 from regscribe.emit.write import difference
 from regscribe.map_format import FormatError, formatted
@@ -75,7 +76,7 @@ def _file(path: Path, done: Tally, *, check: bool) -> None:
     if check:
         tell(safe_lines(difference(path.as_posix(), before, text.encode())))
         return
-    files.save(path, text)
+    save(path, text)
     tell(safe(f"{path} formatted") + "\n")
 
 

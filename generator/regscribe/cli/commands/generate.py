@@ -9,6 +9,7 @@ from time import perf_counter
 import click
 
 from regscribe.cli.shared.diagnostic_text import count, report
+from regscribe.cli.shared.failure import unwritten
 from regscribe.cli.shared.map_arguments import find_maps
 from regscribe.cli.shared.map_builds import Made, make_all
 from regscribe.cli.shared.output import detail, raised_as, refuse, tell, tell_done
@@ -18,7 +19,7 @@ from regscribe.emit.build_cache import BuildRecord
 from regscribe.emit.docs_index import render_index
 from regscribe.emit.header import origin_of
 from regscribe.emit.templates import Templates
-from regscribe.emit.write import Report, WriteError, write
+from regscribe.emit.write import Report, UnwrittenFilesError, WriteError, write
 from regscribe.model import Diagnostic
 from regscribe.visible import safe_lines
 
@@ -82,7 +83,7 @@ def command(*, maps: tuple[str, ...], check: bool, out: Path, folder: Path | Non
     if templates and not templates.names:
         refuse(f"--templates {folder}: there is no template (*.j2) in this folder")
     known = build_cache.Cache(out, "") if check else build_cache.load(out, templates.contents() if templates else ())
-    with raised_as(click.ClickException, WriteError):
+    with raised_as(click.ClickException, WriteError), unwritten(UnwrittenFilesError):
         build = _build(paths, known, templates)
         report(build.diagnostics, failed=build.failed, nothing="nothing was written")
         written = _write(build, out, check=check, whole=not maps)
@@ -105,9 +106,9 @@ def _check_project(name: str, *, check: bool) -> None:
 
 def _start_project(name: str, out: Path) -> None:
     from regscribe.cli.shared.project_file import start_project  # noqa: PLC0415 - as above
-    from regscribe.files import FileError  # noqa: PLC0415 - as above
+    from regscribe.files import UnwrittenError  # noqa: PLC0415 - as above
 
-    with raised_as(click.ClickException, FileError):
+    with unwritten(UnwrittenError):
         new = start_project(name, out)
     if new:
         tell_done(safe_lines(f"{out / 'pyproject.toml'} is new: pip install -e {shlex.quote(str(out))}\n"))

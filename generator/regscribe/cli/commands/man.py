@@ -5,9 +5,8 @@ from pathlib import Path
 import click
 
 from regscribe.cli.shared.man_page import pages
-from regscribe.cli.shared.output import raised_as, tell_done
-from regscribe.cli.shared.output_file import save
-from regscribe.files import FileError
+from regscribe.cli.shared.output import tell_done
+from regscribe.cli.shared.output_file import make_folder, save
 from regscribe.visible import safe
 
 
@@ -21,13 +20,8 @@ def command(context: click.Context, *, out: Path) -> None:
     """
     root = context.find_root().command
     assert isinstance(root, click.Group)  # noqa: S101 - it has this command
-    with raised_as(click.ClickException, FileError):
-        try:
-            out.mkdir(parents=True, exist_ok=True)
-        except OSError as error:
-            message = f"cannot make the folder {out}: {error.strerror or error}"
-            raise click.ClickException(message) from None
-        written = dict(pages(root))
-        for name, text in written.items():
-            save(out / name, text)
+    make_folder(out)
+    written = dict(pages(root))
+    for name, text in written.items():
+        save(out / name, text)
     tell_done(f"{len(written)} pages in {safe(str(out))}\n")

@@ -4,13 +4,15 @@ from pathlib import Path
 
 import click
 
+from regscribe.cli.shared.exit_codes import OUTPUT
+from regscribe.cli.shared.failure import Failure
 from regscribe.cli.shared.map_heads import parts_of, schema_for, skeleton
 from regscribe.cli.shared.output import refuse, tell_done
 from regscribe.visible import safe
 
 
 @click.command(
-    epilog="Example: regscribe new acme/oven-3\n\nExit code 0: done, 1: the map cannot be written, 2: wrong usage.",
+    epilog="Example: regscribe new acme/oven-3\n\nExit code 0: done, 2: wrong usage, 74: the map cannot be written.",
 )
 @click.argument("map_id", metavar="MAKER/FAMILY")
 @click.option("--dir", "folder", type=click.Path(path_type=Path), default=Path("maps"), show_default=True)
@@ -30,5 +32,5 @@ def command(*, map_id: str, folder: Path) -> None:
         refuse(f"{path} exists; nothing was changed. Choose another name or edit that map")
     except OSError as error:
         message = f"cannot write {path}: {error.strerror}; choose another folder with --dir"
-        raise click.ClickException(message) from None
+        raise Failure(message, kind="file", code=OUTPUT) from None
     tell_done(safe(f"{path} is ready to be filled in; then: regscribe check {path}") + "\n")

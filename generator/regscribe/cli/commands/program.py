@@ -6,10 +6,10 @@ from pathlib import Path
 
 import click
 
-from regscribe import files
 from regscribe.cli.shared.diagnostic_text import count
 from regscribe.cli.shared.exit_codes import REFUSED, UNKNOWN_STATE
-from regscribe.cli.shared.live_report import Failure, code_of, heading, kind_of, reported
+from regscribe.cli.shared.failure import Failure
+from regscribe.cli.shared.live_report import code_of, heading, kind_of, reported
 from regscribe.cli.shared.output import print_json, remark, show_table, tell
 from regscribe.cli.shared.output_file import none_for_stdout, save
 from regscribe.cli.shared.program_text import show_program
@@ -69,7 +69,7 @@ def show(*, target: Target, as_json: bool, name: str, svg: Path | None) -> int:
     else:
         show_program(found, first=here.spec.segments.first)
     if svg:
-        _save(svg, picture(found, first=here.spec.segments.first))
+        save(svg, picture(found, first=here.spec.segments.first))
     return 0
 
 
@@ -90,7 +90,7 @@ def read_command(*, target: Target, as_json: bool, name: str, out: Path | None) 
         return 0
     text = programs.dump(found, remarks=(f"The program of {target}.",))
     if out:
-        _save(out, text)
+        save(out, text)
     else:
         tell(text)
     return 0
@@ -204,7 +204,7 @@ def draw(*, file: Path, svg: Path | None, as_json: bool) -> int:
         given = programs.load(file).program
     first = _first(given)
     if svg:
-        _save(svg, picture(given, first=first))
+        save(svg, picture(given, first=first))
     if as_json:
         print_json(file=str(file), svg=str(svg or ""), program=programs.plain(given))
     elif not svg:
@@ -219,14 +219,6 @@ def _first(given: programs.Program) -> int:
         return programs.places(catalogue.find(name).driver)[0].spec.segments.first if given.model else 1
     except (TargetError, IndexError):
         return 1
-
-
-def _save(path: Path, text: str) -> None:
-    """Write a file whole or not at all."""
-    try:
-        save(path, text)
-    except files.FileError as error:
-        raise Failure(str(error), kind="file", code=REFUSED) from None
 
 
 def _fits(given: programs.ProgramFile, here: programs.ProgramSlot) -> None:

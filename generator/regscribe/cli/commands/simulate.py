@@ -16,10 +16,13 @@ from regscribe.cli.shared import simulated_devices
 from regscribe.cli.shared.exit_codes import STOPPED
 from regscribe.cli.shared.global_options import is_quiet
 from regscribe.cli.shared.output import raised_as, refuse, tell
+from regscribe.cli.shared.output_file import save
 from regscribe.cli.shared.request_log import RequestLog, table
 from regscribe.cli.shared.simulated_devices import WantedDevice
+from regscribe.cli.shared.standard_input import STDOUT
 from regscribe.cli.shared.target_options import base_option, given_option
 from regscribe.simulate import Foreign, Server, Service, SimulatedDevice, SimulatorError, Transport
+from regscribe.simulate.device import state_files
 from regscribe.simulate.line.server_context import factor_of
 from regscribe.simulate.line.serving import line_of
 from regscribe.visible import safe
@@ -79,7 +82,7 @@ class Options(TypedDict):
 @click.option(
     "--speed", type=click.FloatRange(0, 1e6), default=1.0, metavar="F", help="Simulated seconds in a real one."
 )
-@click.option("--state", default="", metavar="FILE", help="Begin with this state (or backup) of the device.")
+@click.option("--state", default="", metavar="FILE", help="Begin with this state (or backup); - is standard input.")
 @click.option("--save", metavar="FILE", help="Write the state of the device at the end.")
 @click.option("--foreign", type=click.Choice(list(Foreign)), help="What a unit that is not here gets.")
 @click.option("--connections", type=click.IntRange(1, 10_000), default=64, help="Clients at once.", show_default=True)
@@ -117,6 +120,8 @@ def command(  # noqa: PLR0913 - one for each option that makes devices
         refuse("name a MAP (and which --model of several), or devices by --device MAP:MODEL:UNIT or --devices FILE")
     if len(wanted) > 1 and any((state, options["save"])):
         refuse(f"--state and --save are for one device, not for {len(wanted)}: give states in a file of --devices")
+    if options["save"] == STDOUT:
+        refuse("--save - : standard output tells the requests; name a file")
     service = _service(options)
     maps = simulated_devices.compiled_by_name(one.map for one in wanted)
     with raised_as(click.ClickException, SimulatorError):
@@ -134,7 +139,7 @@ def _run(devices: list[SimulatedDevice], service: Service, options: Options) -> 
         return asyncio.run(_serve(devices, service, requests if shown and terminal else None))
     finally:
         if options["save"]:
-            devices[0].save(options["save"])
+            save(Path(options["save"]), state_files.as_text(devices[0].snapshot()))
 
 
 async def _serve(devices: list[SimulatedDevice], service: Service, drawn: RequestLog | None) -> int:

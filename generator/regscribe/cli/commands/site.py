@@ -7,9 +7,10 @@ import click
 
 from regscribe.cli.shared.compiled_maps import compiled_maps
 from regscribe.cli.shared.diagnostic_text import count
+from regscribe.cli.shared.failure import unwritten
 from regscribe.cli.shared.map_arguments import find_maps
-from regscribe.cli.shared.output import raised_as, tell, warn
-from regscribe.site import Site, SiteError, make
+from regscribe.cli.shared.output import raised_as, tell, tell_done, warn
+from regscribe.site import Site, SiteError, UnwrittenSiteError, make
 from regscribe.visible import safe
 
 
@@ -38,12 +39,12 @@ def command(*, maps: tuple[str, ...], out: Path, project: Path | None, api: bool
     """
     started = perf_counter()
     register_maps = compiled_maps(find_maps(maps), nothing="nothing was written")
-    with raised_as(click.ClickException, SiteError):
+    with raised_as(click.ClickException, SiteError), unwritten(UnwrittenSiteError):
         pages, faults = make(Site(register_maps, project, api=api, title=title, url=url), out)
     for fault in faults:
         tell(f"{safe(str(fault))}\n")
     if faults:
         warn(f"nothing was written: {count(len(faults), 'fault')}\n")
         return 1
-    tell(safe(f"{count(pages, 'page')} in {out}; {perf_counter() - started:.1f} s") + "\n")
+    tell_done(safe(f"{count(pages, 'page')} in {out}; {perf_counter() - started:.1f} s") + "\n")
     return 0

@@ -8,8 +8,9 @@ from pathlib import Path
 import click
 
 from regscribe.cli.shared.completion_values import complete_register
-from regscribe.cli.shared.exit_codes import REFUSED
-from regscribe.cli.shared.live_report import Failure, failure
+from regscribe.cli.shared.exit_codes import OUTPUT
+from regscribe.cli.shared.failure import Failure
+from regscribe.cli.shared.live_report import failure
 from regscribe.cli.shared.live_view import Screen, lines
 from regscribe.cli.shared.output import print_json_line, tell
 from regscribe.cli.shared.target_options import opened, target_options
@@ -69,7 +70,7 @@ def command(
         except GaveUp as end:
             raise failure(end.error) from None
         except logs.LogError as error:
-            raise Failure(str(error), kind="log", code=REFUSED) from None
+            raise Failure(str(error), kind="log", code=OUTPUT) from None
     return 0
 
 

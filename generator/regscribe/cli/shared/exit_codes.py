@@ -17,7 +17,7 @@ EXIT_CODES = {
     SILENT: "nobody answers: the link cannot be opened, was lost, the device is silent, or a gateway says so",
     UNKNOWN_STATE: "a write broke off or reads back differently: look at what the device holds",
     INTERNAL: "internal error: a bug in regscribe; nothing is known of the map or the device",
-    OUTPUT: "standard output cannot be written (a full disk) or is closed",
+    OUTPUT: "standard output or a file cannot be written (a full disk, no such folder), or standard output is closed",
     INTERRUPTED: "Ctrl-C",
     CLOSED_PIPE: "whoever read the output went away (`dump oven | head -1`); nothing is said",
     STOPPED: "`simulate` was stopped by the signal TERM",

@@ -5,9 +5,10 @@ from dataclasses import dataclass, field, replace
 from pathlib import Path
 
 from regscribe import files, plugins, source
+from regscribe.cli.shared.failure import unwritten
 from regscribe.cli.shared.import_source import check, check_at, id_for
 from regscribe.cli.shared.map_heads import head_of
-from regscribe.cli.shared.output import detail
+from regscribe.cli.shared.output_file import make_folder, save
 from regscribe.draft import Draft, Outcome
 from regscribe.draft.differences import Change, Note
 from regscribe.draft.fixes import fixed
@@ -97,22 +98,18 @@ class Run:
         return replace(note, place=owner.place) if note.place.file == IMPORTED and owner is not None else note
 
     def save_map(self, out: Path, *, merging: bool) -> None:
-        """Write the map, a new file unless it is merged into. Raises FileError."""
-        try:
-            out.parent.mkdir(parents=True, exist_ok=True)
-        except OSError as error:
-            message = f"cannot write {out}: {error.strerror or error}"
-            raise FileError(message) from None
-        files.save(out, self.text or "", new=not merging)
-        detail(f"wrote {out}")
+        """Write the map, a new file unless it is merged into. Raises Failure."""
+        make_folder(out.parent)
+        save(out, self.text or "", new=not merging)
 
     def save_mapping(self, path: Path, *, imported: bool) -> None:
-        """Write the mapping, with what was imported if the map was written. Raises FileError."""
+        """Write the mapping, with what was imported if the map was written. Raises Failure."""
         own = self.mapping.own or begun(self.form, self.name, {**self.options, **self.draft.settings})
         if imported:
-            store_mapping(path, own, stored(_document(self.written.text)))
+            with unwritten(files.UnwrittenError):
+                store_mapping(path, own, stored(_document(self.written.text)))
         else:
-            files.save(path, own)
+            save(path, own)
 
 
 def code_of(run: Run) -> int:

@@ -3,13 +3,12 @@
 from collections.abc import Iterator, Sequence
 from contextlib import contextmanager
 from datetime import UTC, datetime
-from typing import IO, Any
-
-import click
+from typing import Any
 
 from regscribe.cli.shared.diagnostic_text import report
 from regscribe.cli.shared.exit_codes import REFUSED, SILENT, UNKNOWN_STATE, USAGE
-from regscribe.cli.shared.output import hexadecimal, print_json_line, remark, show_table, warn
+from regscribe.cli.shared.failure import Failure
+from regscribe.cli.shared.output import hexadecimal, remark, show_table, warn
 from regscribe.tools.live import catalogue
 from regscribe.tools.live.capture import RECEIVED, SENT
 from regscribe.tools.live.decode import Decoded, Decoder
@@ -41,25 +40,6 @@ OPTIONS = {
 
 UNSETTLED = (PartialWrite, WriteUnknown, ReadBackDiffers, NotApplied, NotConfigured, LeftAt)
 """Errors after which the device does not hold what it held, or nobody knows; some of them are NoAnswer, too."""
-
-
-class Failure(click.ClickException):
-    """An error of a live command; `kind` is the word for it in JSON (`no-answer`)."""
-
-    def __init__(self, message: str, *, kind: str, code: int) -> None:
-        super().__init__(message)
-        self.kind = kind
-        self.exit_code = code  # type: ignore[misc]  # click's usual code is one of the class
-        context = click.get_current_context(silent=True)
-        self.as_json = bool(context and context.params.get("as_json"))
-
-    def show(self, file: IO[Any] | None = None) -> None:
-        """Print the message to standard error; with --json an object to standard output, too."""
-        try:
-            if self.as_json:
-                print_json_line(error={"kind": self.kind, "message": self.message, "exit_code": self.exit_code})
-        finally:  # a full disk hides no error of a device
-            super().show(file)
 
 
 @contextmanager

@@ -5,6 +5,8 @@ from pathlib import Path
 import click
 
 from regscribe import files
+from regscribe.cli.shared.exit_codes import OUTPUT
+from regscribe.cli.shared.failure import Failure, unwritten
 from regscribe.cli.shared.output import detail, tell, tell_bytes
 from regscribe.cli.shared.standard_input import STDOUT
 
@@ -14,10 +16,23 @@ def none_for_stdout(_context: click.Context, _option: click.Parameter, value: Pa
     return None if str(value) == STDOUT else value
 
 
-def save(path: Path, content: str | bytes) -> None:
-    """Write a file whole or not at all, and tell of it with --verbose; print for `-`. Raises FileError."""
+def make_folder(path: Path) -> None:
+    """Make a folder and those above it. Raises Failure."""
+    try:
+        path.mkdir(parents=True, exist_ok=True)
+    except OSError as error:
+        message = f"cannot make the folder {path}: {error.strerror or error}"
+        raise Failure(message, kind="file", code=OUTPUT) from None
+
+
+def save(path: Path, content: str | bytes, *, new: bool = False) -> None:
+    """Write a file (with `new`, where there is none) whole or not at all, told of with --verbose; print for `-`.
+
+    Raises Failure where it cannot be written.
+    """
     if str(path) != STDOUT:
-        files.save(path, content)
+        with unwritten(files.UnwrittenError):
+            files.save(path, content, new=new)
         detail(f"wrote {path}")
     elif isinstance(content, str):
         tell(content)

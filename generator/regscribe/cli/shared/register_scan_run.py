@@ -9,10 +9,12 @@ from typing import NamedTuple
 
 from regscribe import files
 from regscribe.cli.shared.diagnostic_text import count
-from regscribe.cli.shared.exit_codes import INTERRUPTED, REFUSED
-from regscribe.cli.shared.live_report import Failure, failure, refused_if
+from regscribe.cli.shared.exit_codes import INTERRUPTED
+from regscribe.cli.shared.failure import unwritten
+from regscribe.cli.shared.live_report import failure, refused_if
 from regscribe.cli.shared.long_work import progress
 from regscribe.cli.shared.output import hexadecimal, print_json, remark, show_table
+from regscribe.cli.shared.output_file import save
 from regscribe.tools.live import scan, scan_files
 from regscribe.tools.live.register_scan import NOISE, RegisterScan, ScanLimits, ScanRecord, Span, of_modicon, runs
 from regscribe.tools.live.target import Target, link_of
@@ -82,7 +84,8 @@ def _scanned(
             for _ in range(asked.size if asked.words or asked.size == 1 else 0):
                 advance(f"{asked.space} {asked.first}, {scanning.requests} requests")
             if scanning.requests % OFTEN == 0 and kept.resume:
-                scan_files.save(kept.resume, record, str(target.link), target.unit)
+                with unwritten(files.UnwrittenError):
+                    scan_files.save(kept.resume, record, str(target.link), target.unit)
     left = any(
         True for space, spans in wanted.items() for _ in record.unknown(space, spans) if not record.is_left_out(space)
     )
@@ -91,13 +94,11 @@ def _scanned(
 
 def _keep(kept: ScanFiles, record: ScanRecord, link: str, unit: int) -> None:
     """Write the files of a scan; Failure where one cannot be written."""
-    try:
-        if kept.resume:
+    if kept.resume:
+        with unwritten(files.UnwrittenError):
             scan_files.save(kept.resume, record, link, unit)
-        if kept.table:
-            files.save(kept.table, scan_files.as_table(record))
-    except files.FileError as error:
-        raise Failure(str(error), kind="file", code=REFUSED) from None
+    if kept.table:
+        save(kept.table, scan_files.as_table(record))
 
 
 def _show(record: ScanRecord, target: Target, ended: str, *, as_json: bool) -> None:

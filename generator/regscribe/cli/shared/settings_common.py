@@ -9,7 +9,8 @@ import click
 
 from regscribe.cli.shared.diagnostic_text import count
 from regscribe.cli.shared.exit_codes import REFUSED, UNKNOWN_STATE, USAGE
-from regscribe.cli.shared.live_report import Failure, reported
+from regscribe.cli.shared.failure import Failure
+from regscribe.cli.shared.live_report import reported
 from regscribe.cli.shared.long_work import Shield, progress
 from regscribe.cli.shared.output import alert, detail, remark, show_table
 from regscribe.cli.shared.standard_input import is_stdin

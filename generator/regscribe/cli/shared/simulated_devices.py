@@ -14,9 +14,11 @@ from regscribe.cli.shared.compiled_maps import compiled_maps
 from regscribe.cli.shared.diagnostic_text import findings
 from regscribe.cli.shared.map_arguments import did_you_mean, find_map
 from regscribe.cli.shared.output import raised_as, refuse, show
+from regscribe.cli.shared.standard_input import input_bytes, is_stdin
 from regscribe.model import RegisterMap
 from regscribe.model.nearest import nearest
 from regscribe.simulate import SimulatedDevice, SimulatorError, ThermalProcess
+from regscribe.simulate.device import state_files
 from regscribe.tools.live.givens import Given, given_of
 from regscribe_runtime.values.blocks import bases_in
 from regscribe_runtime.values.serial_line import ADDRESSINGS, MODBUS
@@ -157,8 +159,17 @@ def device_of(wanted: WantedDevice, register_map: RegisterMap) -> SimulatedDevic
         tips = (f"\nOn the command line: --given {one.id}=VALUE" for one in register_map.givens if one.id not in values)
         refuse(f"{error}{next(tips, '')}")
     if wanted.state:
-        device.load(wanted.state)
+        _load(device, wanted.state)
     return device
+
+
+def _load(device: SimulatedDevice, name: str) -> None:
+    """Set a device to a file, or to standard input. Raises SimulatorError."""
+    if is_stdin(name):
+        name = "standard input"
+        device.restore(state_files.parse(input_bytes(state_files.MOST_BYTES), name), name=name)
+    else:
+        device.load(name)
 
 
 def _model(model: str | None, register_map: RegisterMap) -> str:

@@ -12,8 +12,9 @@ import click
 
 from regscribe.cli.shared.completion_values import complete_model, complete_target
 from regscribe.cli.shared.exit_codes import REFUSED
+from regscribe.cli.shared.failure import Failure
 from regscribe.cli.shared.global_options import is_verbose
-from regscribe.cli.shared.live_report import Failure, FrameTracer, reported
+from regscribe.cli.shared.live_report import FrameTracer, reported
 from regscribe.cli.shared.output import detail, remark
 from regscribe.tools.live import catalogue
 from regscribe.tools.live import config as configuration

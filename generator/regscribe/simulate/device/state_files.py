@@ -5,15 +5,17 @@ state: {map: athena/series-c, model: 16C, unit: 1}
 values: {setpoint_ram: 150.5, operating_mode: MANUAL}
 """
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import Any
 
-from regscribe import files
+from regscribe import files, source
+from regscribe.model import Diagnostic
 from regscribe.simulate.device.device_plan import Stored, sources_of
 from regscribe.simulate.device.plain_values import Plain, meant, set_to, shown
 from regscribe.simulate.device.state import DeviceState
 from regscribe.simulate.errors import SimulatorError
+from regscribe.source import Document
 
 FORMAT = 1
 MOST_BYTES = 8_000_000
@@ -41,11 +43,15 @@ def _in_effect(state: DeviceState, path: str, former: Stored) -> Plain:
     return shown(copy, state.register(path), copy.stored(path))
 
 
+def as_text(document: Mapping[str, Any]) -> str:
+    """A state as the text of its file."""
+    return files.dump(document, remarks=("State of a simulated device; `regscribe simulate --state` loads it.",))
+
+
 def save(path: Path, document: Mapping[str, Any]) -> None:
     """Write a state; if that fails, SimulatorError, and an existing file stays as it was."""
-    remark = "State of a simulated device; `regscribe simulate --state` loads it."
     try:
-        files.save(path, files.dump(document, remarks=(remark,)))
+        files.save(path, as_text(document))
     except files.FileError as problem:
         message = f"cannot write the state: {problem}"
         raise SimulatorError(message) from None
@@ -53,8 +59,6 @@ def save(path: Path, document: Mapping[str, Any]) -> None:
 
 def load(path: Path) -> Mapping[str, Any]:
     """Return the document in a state or backup file; SimulatorError with line and column where it is none."""
-    from regscribe import source  # noqa: PLC0415 - only who loads a file waits for the reader
-
     try:
         size = path.stat().st_size
     except OSError as problem:
@@ -63,13 +67,21 @@ def load(path: Path) -> Mapping[str, Any]:
     if size > MOST_BYTES:
         message = f"{path} has {size} bytes: a state has at most {MOST_BYTES}"
         raise SimulatorError(message)
-    document, found = source.load(path, escapes=True)
+    return _mapping_in(*source.load(path, escapes=True), name=str(path))
+
+
+def parse(content: bytes, name: str) -> Mapping[str, Any]:
+    """Return the document in the bytes of a state or backup; SimulatorError as `load`."""
+    return _mapping_in(*source.parse(content, name=name, escapes=True), name=name)
+
+
+def _mapping_in(document: Document | None, found: Sequence[Diagnostic], *, name: str) -> Mapping[str, Any]:
     if document is None:
         first = found[0]
-        message = f"{path} is no state: {first.span.line}:{first.span.column}: {first.message}"
+        message = f"{name} is no state: {first.span.line}:{first.span.column}: {first.message}"
         raise SimulatorError(message)
     if not isinstance(document.data, dict):
-        message = f"{path} is no state: it is no mapping with `format`, `state` and `values`"
+        message = f"{name} is no state: it is no mapping with `format`, `state` and `values`"
         raise SimulatorError(message)
     return document.data
 

@@ -24,7 +24,7 @@ READ_AT_ONCE = 1 << 16
 
 
 class LogError(Exception):
-    """A round could not be written; the log holds every round before it."""
+    """The log cannot be written; it holds every round before."""
 
 
 class TextLog:
@@ -122,7 +122,7 @@ class SqliteLog:
 
 
 def open_log(path: Path, device: str) -> TextLog | SqliteLog:
-    """A log at `path`, new or continued; TargetError for another ending, a file of another kind, or no access."""
+    """A log at `path`, new or continued; TargetError for another ending or kind of file, LogError for no access."""
     ending = path.suffix.lower()
     if ending not in ENDINGS:
         message = f"{path}: a log ends in .csv, .jsonl or .sqlite{meant(ending, ENDINGS) if ending else ''}"
@@ -133,8 +133,11 @@ def open_log(path: Path, device: str) -> TextLog | SqliteLog:
         if ending in {".jsonl", ".ndjson"}:
             return TextLog(path, device, _json_line)
         return SqliteLog(path, device)
-    except (OSError, sqlite3.Error) as error:
+    except (OSError, sqlite3.OperationalError) as error:
         message = f"{path} cannot be written: {_reason(error)}"
+        raise LogError(message) from None
+    except sqlite3.Error as error:
+        message = f"{path} is no log: {_reason(error)}"
         raise TargetError(message) from None
 
 

@@ -127,10 +127,10 @@ def test_two_processes_on_one_port_get_in_no_ones_way(start: Start, serve: Calla
         assert ended(first)[0] == 130
 
 
-def test_a_log_on_a_full_disk_is_code_one(start: Start, oven: str, folder: Path) -> None:
+def test_a_log_on_a_full_disk_has_the_exit_code_of_output(start: Start, oven: str, folder: Path) -> None:
     (folder / "log.csv").symlink_to("/dev/full")
     code, _, err = ended(start("watch", oven, "process_value", "--log", "log.csv", "--every", "0.01"))
-    assert (code, "no space left" in err) == (1, True), err
+    assert (code, "no space left" in err) == (74, True), err
 
 
 @pytest.fixture

@@ -48,7 +48,7 @@ def test_a_full_disk_leaves_the_old_file_and_nothing_else(
 
     monkeypatch.setattr(os, "fsync", full)
     result = cli("backup", oven, "oven.yaml", "--force")
-    assert (result.code, "No space left" in result.err) == (2, True)
+    assert (result.code, "No space left" in result.err) == (74, True)
     assert [(one.name, one.read_text(encoding="utf-8")) for one in folder.iterdir()] == [("oven.yaml", "mine")]
 
 

@@ -109,7 +109,7 @@ def test_an_ending_that_is_none_says_which_there_are(name: str, tmp_path: Path) 
 
 
 def test_a_folder_that_is_not_there_is_an_error(tmp_path: Path) -> None:
-    with pytest.raises(TargetError, match="cannot be written"):
+    with pytest.raises(LogError, match="cannot be written"):
         open_log(tmp_path / "none" / "log.csv", "oven")
 
 
