@@ -1,15 +1,16 @@
 """`regscribe read`: values of registers, groups and array elements, with their units."""
 
 from collections.abc import Mapping, Sequence
+from functools import partial
 
 import click
 
 from regscribe.cli.shared.completion_values import complete_register
 from regscribe.cli.shared.live_report import heading, plain, refused_if
 from regscribe.cli.shared.output import alert, hexadecimal, print_json, remark, show_table, tell
-from regscribe.cli.shared.target_options import opened, target_options
+from regscribe.cli.shared.target_options import opened, opened_unknown, target_options
 from regscribe.tools.live import names
-from regscribe.tools.live.addresses import NoRegisterError, raw_place, spelled
+from regscribe.tools.live.addresses import NoRegisterError, is_address, raw_place, spelled
 from regscribe.tools.live.errors import TargetError
 from regscribe.tools.live.reading import readings, word_at
 from regscribe.tools.live.target import Target
@@ -35,13 +36,16 @@ def command(*, target: Target, as_json: bool, wanted: tuple[str, ...], bare: boo
     """Read registers, groups, arrays (segments), their elements (segments[1]) and computed values in few requests.
 
     A flag or field of a word is read by name, too (status.running), and what stands at an address: 4049, 0xFD1, 44050,
-    holding:4049 (also input, coil, discrete). An address of another view reads that view.
+    holding:4049 (also input, coil, discrete). An address of another view reads that view. Addresses are read --raw
+    without a model, too.
     """
-    choose = _to_read_raw if raw else names.chosen
-    with opened(target, check=lambda driver: choose(driver, wanted)) as device:
-        if raw:
+    if raw:
+        unknown = not target.model and all(map(is_address, wanted))
+        check = partial(_to_read_raw, wanted=wanted)
+        with opened_unknown(target) if unknown else opened(target, check=check) as device:
             _show_words(device, target, _to_read_raw(type(device), wanted), as_json=as_json)
-            return 0
+        return 0
+    with opened(target, check=lambda driver: names.chosen(driver, wanted)) as device:
         chosen = names.choices(type(device), wanted)
         found = device.run(readings(names.chosen(type(device), wanted)))
     for note in dict.fromkeys(one.note for one in chosen if one.note and not as_json):

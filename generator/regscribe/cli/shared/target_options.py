@@ -180,6 +180,14 @@ def opened(
             yield device
 
 
+@contextmanager
+def opened_unknown(target: targets.Target) -> Iterator[BareDevice]:
+    """As `opened`, for words at addresses: the device is not asked for its model."""
+    silence_loggers()
+    with reported(), targets.unknown_device(target) as device:
+        yield device
+
+
 def silence_loggers() -> None:
     """Keep what libraries log off the terminal: every error of the line is reported here, once."""
     logging.getLogger().addHandler(logging.NullHandler())

@@ -126,6 +126,11 @@ def link_of(target: Target) -> Link:
     return serial(link.device, timeout=seconds, trace=target.trace, **line)
 
 
+def unknown_device(target: Target) -> BareDevice:
+    """A driver for the words of a target whose model is not known, not opened yet."""
+    return BareDevice(link_of(target), unit=target.unit)
+
+
 def packages_of(target: Target) -> tuple[ModuleType, ...]:
     """The packages whose models the target may be; TargetError if one cannot be imported."""
     if not target.map:

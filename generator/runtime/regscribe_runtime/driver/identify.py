@@ -19,6 +19,7 @@ from regscribe_runtime.operations.session import Operation, Session, Task
 from regscribe_runtime.registers import codec
 from regscribe_runtime.registers.register import Register
 from regscribe_runtime.values.blocks import RegisterBlock
+from regscribe_runtime.values.protocol import Protocol
 from regscribe_runtime.values.views import View
 from regscribe_runtime.values.wire_types import WIRE
 from regscribe_runtime.wire.requests import Request, verify
@@ -115,7 +116,7 @@ def identity_of(*models: Known) -> Task[Identification]:
 
 
 def _identify(models: tuple[Known, ...], unit: int) -> Operation[Identification]:
-    asked, fitting = _Asked(unit), []
+    asked, fitting = _Asked(unit, _protocol(models)), []
     for known in models:
         state: dict[str, Any] = {}
         for path in dict.fromkeys(chain.from_iterable(one.registers() for one in known.driver.identity)):
@@ -132,11 +133,17 @@ def _identify(models: tuple[Known, ...], unit: int) -> Operation[Identification]
     return Identification(left, tuple(asked.evidence.values()), tuple(lacking.items()))
 
 
+def _protocol(models: tuple[Known, ...]) -> Protocol:
+    """In whose words refusals are told: those of the one map; a device of several may be none of them."""
+    return models[0].driver.protocol if len({known.map_id for known in models}) == 1 else Protocol()
+
+
 class _Asked:
     """What one unit was asked, and what it answered; nothing is asked twice."""
 
-    def __init__(self, unit: int) -> None:
+    def __init__(self, unit: int, protocol: Protocol) -> None:
         self.unit = unit
+        self.protocol = protocol
         self.evidence: dict[tuple[Request, str], Evidence] = {}
         self._answers: dict[Request, Answer] = {}
         self._sessions: dict[tuple[RegisterBlock, ...], Session] = {}
@@ -148,7 +155,7 @@ class _Asked:
         if absent:
             self._answers[request] = absent
         elif request not in self._answers:
-            self._answers[request] = yield from _ask(request, self.unit, known)
+            self._answers[request] = yield from _ask(request, self.unit, self.protocol)
         earlier = self.evidence.get((request, path))
         maps = (*(earlier.map_ids if earlier else ()), known.map_id)
         found = _evidence(tuple(dict.fromkeys(maps)), register, request, self._answers[request])
@@ -204,10 +211,10 @@ def _view(register: Register[Any]) -> View:
     return next((view for view in register.views if view.readable and not view.needs()), register.read_view())
 
 
-def _ask(request: Request, unit: int, known: Known) -> Operation[Answer]:
+def _ask(request: Request, unit: int, protocol: Protocol) -> Operation[Answer]:
     try:
         reply = yield request
-        return verify(request, reply, unit=unit, protocol=known.driver.protocol) if reply else ()
+        return verify(request, reply, unit=unit, protocol=protocol) if reply else ()
     except LinkLost:
         raise  # there is nobody left to ask
     except RegscribeError as error:

@@ -1,6 +1,7 @@
 """Registers by address in every notation, and flags and fields by name, on the command line."""
 
 import json
+import re
 from collections.abc import Callable, Iterator
 from pathlib import Path
 from typing import Any
@@ -136,6 +137,23 @@ def test_an_address_of_no_register_names_its_neighbours_and_is_read_raw(read: Ru
     assert read("45", "--raw").out == "holding 45 (0x2D, 40046)  0000\n"
     found = json.loads(read("input:45", "--raw", "--json").out)
     assert found["registers"] == {"input 45 (0x2D, 30046)": {"words": [0]}}
+
+
+def test_words_of_a_device_without_a_model_are_read_by_address(cli: Run, pump: Running) -> None:
+    pump.requests.clear()
+    link = f"tcp:{pump.host}:{pump.port}"
+    assert cli("read", link, "holding:45", "input:45", "--raw").out.split()[-1] == "0000"
+    assert [pdu.hex() for pdu in pump.requests] == ["03002d0001", "04002d0001"]  # nothing asks what it is
+    refused = cli("read", link, "99", "--raw")
+    assert (refused.code, refused.err.endswith("with exception 02 (illegal data address)\n")) == (1, True), refused.err
+
+
+def test_a_device_that_fits_no_model_is_refused_in_the_words_of_no_manual(cli: Run, pump: Running) -> None:
+    refused = cli("read", f"tcp:{pump.host}:{pump.port}", "level")
+    assert (refused.code, "none that drivers exist for" in refused.err) == (2, True), refused.err
+    told = re.findall(r"exception 0[12] \(([^)]*)\)", refused.err)
+    assert set(told) <= {"illegal function", "illegal data address"}, refused.err
+    assert told
 
 
 def test_the_advice_to_read_a_doubtful_address_raw_says_what_to_write(read: Run) -> None:
