@@ -1,9 +1,15 @@
 """What is being written at a position of a text: a key or a value, and where in the map."""
 
+import re
 from dataclasses import dataclass
 
 from regscribe.language_server.tolerant import MARK, read
 from regscribe.source import Path, SourceNode, SourcePlace
+
+_BEFORE = re.compile(r"(?:.*[\s{\[,])?")
+_AFTER = re.compile(r"\s*(?:$|#|[,\]}:])")
+_NO_WORD = re.compile(rf"-?{MARK}-?(?:\s|$)|.*:{MARK}")
+"""Behind a dash or a colon without its blank, or before blanks and something else."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -32,7 +38,7 @@ class Cursor:
 
 
 def cursor_at(text: str, line: int, column: int) -> Cursor | None:
-    """What is being written at a position, which counts from 0; None in comments and where nothing can stand."""
+    """What is being written at a position, which counts from 0; None in comments and where no word can stand."""
     lines = text.replace(MARK, " ").split("\n")
     if line >= len(lines):
         return None
@@ -43,11 +49,19 @@ def cursor_at(text: str, line: int, column: int) -> Cursor | None:
     if found is None:
         return None
     path, at_key, place = found
-    end = place.end_column - (place.end_line == line)
+    if place.line != place.end_line or not _is_word(lines[line], place):
+        return None
+    end = place.end_column - 1
     own_line = not before[: place.column].strip(" -") and place.line == line
     whole = SourcePlace(place.line, place.column, place.end_line, max(end, place.column))
     has_colon = at_key and lines[line][place.end_column :].lstrip().startswith(":")
     return Cursor(root, path, at_key, whole, own_line, has_colon)
+
+
+def _is_word(text: str, place: SourcePlace) -> bool:
+    """Whether what is at the cursor stands alone: between blanks, brackets and commas, on one line."""
+    before, word, after = text[: place.column], text[place.column : place.end_column], text[place.end_column :]
+    return bool(_BEFORE.fullmatch(before) and _AFTER.match(after)) and not (word != MARK and _NO_WORD.match(word))
 
 
 def _marked(root: SourceNode) -> tuple[Path, bool, SourcePlace] | None:

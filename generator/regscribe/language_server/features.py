@@ -54,7 +54,7 @@ def create(debounce: float) -> MapServer:
 
     for name, answer in {**NOTIFICATIONS, **REQUESTS}.items():
         add(name, answer)
-    add(lsp.TEXT_DOCUMENT_COMPLETION, questions.completed, lsp.CompletionOptions(trigger_characters=list(" {,[-:")))
+    add(lsp.TEXT_DOCUMENT_COMPLETION, questions.completed, lsp.CompletionOptions(trigger_characters=list(" {,[")))
     add(lsp.TEXT_DOCUMENT_RENAME, changes.rename_done, lsp.RenameOptions(prepare_provider=True))
     add(lsp.TEXT_DOCUMENT_CODE_ACTION, changes.mended, lsp.CodeActionOptions([lsp.CodeActionKind.QuickFix]))
     server.command(NOTHING)(no_action)

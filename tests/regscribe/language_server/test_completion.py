@@ -33,6 +33,23 @@ def test_a_register_gets_the_keys_that_it_has_not(at: At, line: str) -> None:
     assert not {"at", "name", "registers", "repeat", "set", "maker"} & set(found)
 
 
+@pytest.mark.parametrize(
+    "line",
+    [
+        "      -│",
+        "      -│ {at: 15, name: Lo}",
+        "      │- {at: 15, name: Lo}",
+        "    │  - {at: 15, name: Lo}",
+        "      - {at:│ 15, name: Lo}",
+        "      - {at: 15, access:│}",
+        "      - {at: 15, name: Lo, range: [0, 1]│}",
+        "      - at: 15\n        access: r│\n          and\n",
+    ],
+)
+def test_nothing_is_proposed_where_no_word_can_stand(at: At, line: str) -> None:
+    assert labels(at, f"{HEAD}{line}\n") == []
+
+
 def test_a_key_that_would_not_go_with_another_is_not_proposed(at: At) -> None:
     found = labels(at, f"{HEAD}      - {{at: 15, models: [A1], │}}\n")
     assert "models" not in found
