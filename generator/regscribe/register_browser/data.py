@@ -8,7 +8,8 @@ The shape, before `sharing` takes values out that occur several times:
 A register (group, command, computed value) has the facts in which all models agree, `models` where not all have it,
 and `variants` where models differ: objects with `models` and the facts that are theirs. One of an array is that of the
 first element, with `elements` (see `folding`). Facts that say nothing (an empty text, false, the usual factor) are left
-out; numbers are exact (see `exact`). `anchor` and `said` come from the reference in Markdown.
+out; numbers are exact (see `exact`). `anchor` and `said` come from the reference in Markdown,
+`python` from the driver (see `python_names`).
 """
 
 from collections.abc import Callable, Mapping, Sequence
@@ -19,11 +20,13 @@ from regscribe.emit.common_values import merged_order
 from regscribe.emit.header import FORMAT
 from regscribe.emit.markdown.context import context
 from regscribe.emit.outline import pattern
+from regscribe.emit.python.enum_classes import NamedClasses
 from regscribe.export.json import plain
 from regscribe.model import Model, RegisterMap
 from regscribe.register_browser.encodings import encodings
 from regscribe.register_browser.exact import exact
 from regscribe.register_browser.folding import fold
+from regscribe.register_browser.python_names import named_classes, python_names
 from regscribe.register_browser.said import about, said
 from regscribe.register_browser.sharing import shared
 from regscribe.register_browser.spoken_conditions import with_words
@@ -44,7 +47,9 @@ def _map(register_map: RegisterMap) -> Json:
     facts = exact(plain(replace(register_map, models=())))
     found = context(register_map)
     spoken = said(found)
-    registers, commands = _merged(register_map, _registers), _merged(register_map, lambda one: _keyed(one, "commands"))
+    named = named_classes(register_map)
+    registers = _merged(register_map, lambda one: _registers(one, named))
+    commands = _merged(register_map, lambda one: _keyed(one, "commands"))
     for kind, key, each in (("register", "path", registers), ("command", "id", commands)):
         for one in each:
             anchor = found.anchor(kind, pattern(one[key]))
@@ -59,9 +64,9 @@ def _map(register_map: RegisterMap) -> Json:
     }
 
 
-def _registers(model: Model) -> dict[str, Json]:
+def _registers(model: Model, named: NamedClasses) -> dict[str, Json]:
     """The registers of a model by their path in the first element, arrays folded."""
-    every = [with_words(exact(plain(register)), register, model) for register in model.registers]
+    every = [with_words(exact(plain(one)), one, model) | python_names(one, named) for one in model.registers]
     return {one["path"]: one for one in fold(every)}
 
 

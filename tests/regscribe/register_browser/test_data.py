@@ -20,7 +20,7 @@ from ...conformance.browser_codec import evaluate  # noqa: TID252 (test folders 
 EVERY = """(codec, data) => codec.open(data).map((map) => Object.fromEntries(map.models.map(({ name }) => [name,
   map.registers.filter((entry) => codec.modelsOf(map, entry).includes(name)).flatMap((entry) =>
     codec.elementsOf(map, entry, name).map((index) => codec.registerOf(map, entry, name, index)))])))"""
-OF_THE_PAGE = {"anchor", "said", "elements", "models"}
+OF_THE_PAGE = {"anchor", "said", "elements", "models", "python"}
 MOST = 300_000
 
 

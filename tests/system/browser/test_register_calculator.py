@@ -182,7 +182,7 @@ def test_a_member_is_picked_by_name(open_page: Opener, address: str) -> None:
     assert page.locator('[data-word="16-0"]').input_value() == "0x000B"
     page.get_by_label("Value to write").fill("J thermocouple")
     assert reading(page) == "3 = J thermocouple"
-    assert "controller.input_type.write_raw((3,))" in page.locator(".lines").inner_text()
+    assert "controller.input_type.write(InputType.J_THERMOCOUPLE)" in page.locator(".lines").inner_text()
 
 
 def test_what_is_said_of_a_device_stays_for_its_other_registers(setpoint: Page, address: str) -> None:

@@ -43,12 +43,11 @@ const isPreferred = (register, view) => view === (register.views.find((one) => o
 
 const pythonRead = (register, view) => `${pythonPath(register)}.read(${viewArgument(register, view)})`
 
-/** A number is written as such, with the consent that a dangerous write needs; everything else by its words. */
+/** A value is written as such, with the consent that a dangerous write needs; what has no name and is no number, by words. */
 function pythonWrite(register, view, words, reading, known) {
-  const text = textOf(register, reading, known)
-  const isNumber = ["number", "integer", "raw"].includes(register.kind) && /^-?[0-9.]+$/.test(text) && !reading.special
-  const written = isNumber ? `write(${text}` : `write_raw((${words.join(", ")},)`
-  const options = [viewArgument(register, view), isNumber && register.danger ? "confirm=True" : ""].filter(Boolean)
+  const value = pythonValue(register, reading, known)
+  const written = value === null ? `write_raw((${words.join(", ")},)` : `write(${value}`
+  const options = [viewArgument(register, view), value !== null && register.danger ? "confirm=True" : ""].filter(Boolean)
   return `${pythonPath(register)}.${[written, ...options].join(", ")})`
 }
 
