@@ -19,6 +19,9 @@ def factors(decimals: Decimals | None) -> tuple[Fraction, ...]:
     return tuple(Fraction(10) ** digits for digits in range(most + 1))
 
 
+_ZERO = Fraction(0)
+
+
 class Form(NamedTuple):
     """One conversion with the decimals settled: stored = value of use x `gain` - `offset`."""
 
@@ -34,7 +37,8 @@ class Form(NamedTuple):
         if not (isinstance(multiply, Number) and isinstance(add, Number)):
             message = f"{conversion} is not settled"
             raise TypeError(message)
-        return cls(conversion, factor, factor / multiply, add / Fraction(multiply) if add else Fraction(0))
+        gain = factor if multiply == 1 else factor / multiply
+        return cls(conversion, factor, gain, add / Fraction(multiply) if add else _ZERO)
 
     def stored(self, value: Fraction) -> Fraction:
         """The stored number of a value of use."""
@@ -43,7 +47,8 @@ class Form(NamedTuple):
 
     def used(self, stored: Fraction | int) -> Fraction:
         """The value of use of a stored number."""
-        return (stored + self.offset if self.offset else stored) / self.gain
+        number = stored + self.offset if self.offset else stored
+        return Fraction(number) if self.gain == 1 else number / self.gain
 
     def too_fine(self, stored: Fraction) -> bool:
         """Whether a stored number lies between two steps, whatever a register says of them."""
