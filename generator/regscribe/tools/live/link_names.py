@@ -112,6 +112,9 @@ def with_settings(link: LinkName, given: Mapping[str, str]) -> LinkName:
 
 
 def _tcp(text: str, place: str) -> LinkName:
+    if place.count(":") > 1 and "[" not in place and re.fullmatch(r"[0-9A-Fa-f:.%]+", place):
+        message = f"{text}: write an IPv6 address in brackets, for example tcp:[{place}]:{MODBUS_TCP_PORT}"
+        raise TargetError(message)
     found = re.fullmatch(r"(?:\[([0-9A-Fa-f:.%]+)\]|([^:/\[\]\s]+))(?::([0-9]{1,5}))?", place)
     if not found or not 0 < int(found[3] or MODBUS_TCP_PORT) <= LAST_PORT:
         message = f"{text}: write tcp:HOST or tcp:HOST:PORT with a port from 1 to 65535, for example tcp:10.0.0.7:502"

@@ -1,5 +1,6 @@
 """A target: the text that names a device for every command; parsed here, and made a driver."""
 
+import re
 import sys
 from collections.abc import Mapping, Sequence
 from contextlib import closing
@@ -66,7 +67,8 @@ def parse(text: str, config: Config | None = None) -> Target:
         return _with(Target(link=link, packages=configured.packages), text, more)
     if text not in configured.devices:
         where = f"in {configured.path}" if configured.path else "and no configuration names devices (regscribe.yaml)"
-        hint = "" if configured.devices else ": write tcp:HOST:PORT or rtu:/dev/ttyUSB0"
+        usual = "" if configured.devices else ": write tcp:HOST:PORT or rtu:/dev/ttyUSB0"
+        hint = f"; of a link write tcp:{text}" if re.search(r"[\w\]]:[0-9]{1,5}(\?|$)", text) else usual
         raise TargetError(unknown("device", text, configured.devices, where=where) + hint)
     entry = configured.devices[text]
     link, more = link_names.split(entry.link)

@@ -1,5 +1,6 @@
 """Factories of links: over TCP, serial lines, and pymodbus clients of the user's own; the first one loads pymodbus."""
 
+import re
 from typing import Unpack
 
 from regscribe_runtime.link.links import (
@@ -27,11 +28,20 @@ def _serial(port: str, baud: int, settings: LineSettings) -> tuple[SerialLine, L
     return line, {**kept, "framing": framing}  # type: ignore[typeddict-item] # the keys are those of LinkSettings
 
 
+def _host(text: str) -> str:
+    """A host without the brackets of an IPv6 address; ValueError for one with a port or the word of a link."""
+    host = text[1:-1] if text.startswith("[") and text.endswith("]") else text
+    if ":" not in host or re.fullmatch(r"[0-9A-Fa-f.]*:[0-9A-Fa-f:.]*:[0-9A-Fa-f.]*(%.+)?", host):
+        return host
+    message = f"{text!r} is no host: give the port apart, as in tcp('10.0.0.7', port=502)"
+    raise ValueError(message)
+
+
 def tcp(host: str, *, port: int = MODBUS_TCP_PORT, **settings: Unpack[LinkSettings]) -> Link:
     """A TCP link; see `LinkSettings`."""
     from regscribe_runtime.link import transports  # noqa: PLC0415 (pymodbus loads slowly; a driver's import must not wait)
 
-    return transports.SyncTransport((host, port), settings)
+    return transports.SyncTransport((_host(host), port), settings)
 
 
 def serial(port: str, *, baud: int, **settings: Unpack[LineSettings]) -> Link:
@@ -45,7 +55,7 @@ def async_tcp(host: str, *, port: int = MODBUS_TCP_PORT, **settings: Unpack[Link
     """As `tcp`, for asyncio."""
     from regscribe_runtime.link import transports  # noqa: PLC0415 (as above)
 
-    return transports.AsyncTransport((host, port), settings)
+    return transports.AsyncTransport((_host(host), port), settings)
 
 
 def async_serial(port: str, *, baud: int, **settings: Unpack[LineSettings]) -> AsyncLink:

@@ -61,6 +61,7 @@ def test_tcp_carries_the_frames_of_a_line_where_its_name_says_so() -> None:
     [
         ("tpc:10.0.0.7", "did you mean `tcp`?"),
         ("tcp:", "write tcp:HOST"),
+        ("tcp:::1", "in brackets, for example tcp:[::1]:502"),
         ("tcp:host:0", "port from 1 to 65535"),
         ("tcp:host:99999", "port from 1 to 65535"),
         ("rtu:", "name the serial device"),

@@ -181,3 +181,9 @@ def test_a_device_that_shows_to_be_another_is_refused_by_name(running: Running) 
     named = target.parse(f"tcp:{running.host}:{running.port}?model=25C")
     with target.connect(named) as device, pytest.raises(TargetError, match="does not show to be a 25C"):
         target.check_identity(device, named)
+
+
+def test_a_link_without_its_first_word_is_told_how_to_write_it() -> None:
+    for text in ("10.0.0.7:502", "[::1]:502?model=16C"):
+        with pytest.raises(TargetError, match=re.escape(f"of a link write tcp:{text}")):
+            target.parse(text)
