@@ -92,7 +92,7 @@ def test_the_report_as_sarif_is_valid_and_has_each_loss(cli: Cli) -> None:
 @pytest.mark.parametrize("report", ["text", "json", "sarif"])
 def test_the_report_goes_into_a_file(cli: Cli, folder: Path, report: str) -> None:
     done = cli(*HEADER, "-o", "oven.h", "--report", report, "--report-to", "losses")
-    assert (done.code, done.out, done.err) == (0, "", "")
+    assert (done.code, done.out, done.err) == (0, "", "wrote oven.h: 3 kB\n")
     assert "default" in (folder / "losses").read_text(encoding="utf-8")
     assert (folder / "oven.h").read_text(encoding="utf-8").endswith("#endif /* ACMEM1_H */\n")
 

@@ -29,6 +29,17 @@ def given(oven: Path) -> None:
     Path("program.yaml").write_text(program, encoding="utf-8")
 
 
+@pytest.mark.usefixtures("given")
+def test_a_file_that_is_written_is_told_with_what_is_in_it_and_nothing_with_quiet(cli: Callable[..., Any]) -> None:
+    told = cli("browse", "acme/oven", "-o", "oven.html").err
+    size = round(Path("oven.html").stat().st_size / 1000)
+    assert (told, size > 10) == (f"wrote oven.html: 1 map, 2 registers, {size} kB\n", True)
+    assert cli("export", "acme/oven", "--format", "csv", "-o", "a.csv").err.startswith("wrote a.csv: ")
+    assert cli("program", "draw", "program.yaml", "--svg", "a.svg").err.startswith("wrote a.svg: ")
+    assert cli("-q", "browse", "acme/oven", "-o", "oven.html").err == ""
+    assert "wrote" not in cli("export", "acme/oven", "--format", "csv", "-o", "a.csv", "--report", "json").err
+
+
 @needs_full
 @pytest.mark.usefixtures("given")
 @pytest.mark.parametrize("arguments", FILES, ids=" ".join)

@@ -6,9 +6,11 @@ import click
 
 from regscribe import register_browser
 from regscribe.cli.shared.compiled_maps import compiled_maps
+from regscribe.cli.shared.diagnostic_text import count
 from regscribe.cli.shared.map_arguments import find_maps
+from regscribe.cli.shared.map_builds import counts_of
 from regscribe.cli.shared.output import tell
-from regscribe.cli.shared.output_file import none_for_stdout, save
+from regscribe.cli.shared.output_file import none_for_stdout, save_result
 
 
 @click.command(
@@ -30,9 +32,11 @@ def command(*, maps: tuple[str, ...], out: Path | None) -> int:
     MAP is a map file, a folder that is searched for *.yaml, or the id of a map (fdc/series-100). Without MAP: maps/.
     The file needs no server and no network; any browser opens it from disk.
     """
-    text = register_browser.page(compiled_maps(find_maps(maps), nothing="nothing was written"))
+    register_maps = compiled_maps(find_maps(maps), nothing="nothing was written")
+    text = register_browser.page(register_maps)
     if out is None:
         tell(text)
     else:
-        save(out, text)
+        registers = sum(counts_of(one).registers for one in register_maps)
+        save_result(out, text, count(len(register_maps), "map"), count(registers, "register"))
     return 0

@@ -12,7 +12,7 @@ from regscribe.cli.shared.failure import unwritten
 from regscribe.cli.shared.loss_report import FORMS, report_of
 from regscribe.cli.shared.map_arguments import find_maps
 from regscribe.cli.shared.output import raised_as, tell, tell_bytes, warn
-from regscribe.cli.shared.output_file import none_for_stdout, save
+from regscribe.cli.shared.output_file import none_for_stdout, save, save_result
 from regscribe.cli.shared.plugin_options import PluginCommand, own_options
 from regscribe.emit.write import UnwrittenFilesError, WriteError, write
 from regscribe.files import FileError
@@ -65,7 +65,7 @@ def command(
         made = plugins.export(form, register_maps, options)
         refused = strict and bool(made.losses)
         if not refused:
-            _put(form, made, out)
+            _put(form, made, out, told=warned)
         _tell_losses(report_of(made, register_maps, form=form, report=report, refused=refused), report_to)
     return int(refused)
 
@@ -88,8 +88,8 @@ def _tell_losses(text: str, path: Path | None) -> None:
         save(path, text)
 
 
-def _put(form: str, made: Exported, out: Path | None) -> None:
-    """Print the one text, or write it to the file `out`; write several below the folder `out`."""
+def _put(form: str, made: Exported, out: Path | None, *, told: bool) -> None:
+    """Print the one text, or write it to the file `out` (`told` in a remark); write several below the folder `out`."""
     files = {path: text for path, text in made.texts.items() if path}
     one = made.texts.get("")
     if files and out is None:
@@ -105,7 +105,7 @@ def _put(form: str, made: Exported, out: Path | None) -> None:
         message = f"--out {out}: the format {form} makes one file, and this is a folder: name a file in it"
         raise OptionError(message)
     else:
-        save(out, one)
+        (save_result if told else save)(out, one)
 
 
 def _write_folder(form: str, files: Mapping[str, str | bytes], out: Path) -> None:

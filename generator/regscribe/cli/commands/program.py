@@ -11,7 +11,7 @@ from regscribe.cli.shared.exit_codes import REFUSED, UNKNOWN_STATE
 from regscribe.cli.shared.failure import Failure
 from regscribe.cli.shared.live_report import code_of, heading, kind_of, reported
 from regscribe.cli.shared.output import print_json, remark, show_table, tell
-from regscribe.cli.shared.output_file import none_for_stdout, save
+from regscribe.cli.shared.output_file import none_for_stdout, save_result
 from regscribe.cli.shared.program_text import show_program
 from regscribe.cli.shared.target_options import confirm_option, identity_option, json_option, opened, target_options
 from regscribe.tools import programs
@@ -69,7 +69,7 @@ def show(*, target: Target, as_json: bool, name: str, svg: Path | None) -> int:
     else:
         show_program(found, first=here.spec.segments.first)
     if svg:
-        save(svg, picture(found, first=here.spec.segments.first))
+        save_result(svg, picture(found, first=here.spec.segments.first))
     return 0
 
 
@@ -90,7 +90,7 @@ def read_command(*, target: Target, as_json: bool, name: str, out: Path | None) 
         return 0
     text = programs.dump(found, remarks=(f"The program of {target}.",))
     if out:
-        save(out, text)
+        save_result(out, text, count(len(found.segments), "segment"))
     else:
         tell(text)
     return 0
@@ -204,7 +204,7 @@ def draw(*, file: Path, svg: Path | None, as_json: bool) -> int:
         given = programs.load(file).program
     first = _first(given)
     if svg:
-        save(svg, picture(given, first=first))
+        save_result(svg, picture(given, first=first))
     if as_json:
         print_json(file=str(file), svg=str(svg or ""), program=programs.plain(given))
     elif not svg:

@@ -47,7 +47,7 @@ def make(path: Path, templates: Templates | None = None) -> Made:
     hashes = {name: build_cache.digest(text.encode()) for name, text in files.items()}
     sources = {build_cache.key(source): known for source, known in compiled.files}
     sources |= {build_cache.key(source): build_cache.NOTHING for source in compiled.empty}
-    entry = BuildRecord(compiled.map.id, sources, hashes, _counts(compiled.map), card(compiled.map))
+    entry = BuildRecord(compiled.map.id, sources, hashes, counts_of(compiled.map), card(compiled.map))
     return Made(path, compiled.diagnostics, entry, files)
 
 
@@ -103,7 +103,8 @@ def _cost(path: Path) -> tuple[bool, int]:
     return False, 0
 
 
-def _counts(register_map: RegisterMap) -> Counts:
+def counts_of(register_map: RegisterMap) -> Counts:
+    """The numbers of models, registers and enums of a map."""
     registers = {register.path: register for model in register_map.models for register in model.registers}
     enums = {register.enum.id for register in registers.values() if register.enum}
     enums |= {part.enum.id for register in registers.values() for part in register.fields if part.enum}

@@ -7,8 +7,10 @@ import click
 from regscribe import files
 from regscribe.cli.shared.exit_codes import OUTPUT
 from regscribe.cli.shared.failure import Failure, unwritten
-from regscribe.cli.shared.output import detail, tell, tell_bytes
+from regscribe.cli.shared.output import detail, remark, tell, tell_bytes
 from regscribe.cli.shared.standard_input import STDOUT
+
+KILO = 1000
 
 
 def none_for_stdout(_context: click.Context, _option: click.Parameter, value: Path | None) -> Path | None:
@@ -38,3 +40,15 @@ def save(path: Path, content: str | bytes, *, new: bool = False) -> None:
         tell(content)
     else:
         tell_bytes(content, "this")
+
+
+def save_result(path: Path, content: str | bytes, *about: str) -> None:
+    """As `save`, of what the command was asked for: a remark says what is in the file, and how large it is."""
+    if str(path) == STDOUT:
+        save(path, content)
+    else:
+        with unwritten(files.UnwrittenError):
+            files.save(path, content)
+        octets = len(content.encode() if isinstance(content, str) else content)
+        size = f"{octets} bytes" if octets < KILO else f"{octets / KILO:.0f} kB"
+        remark(f"wrote {path}: {', '.join((*about, size))}")

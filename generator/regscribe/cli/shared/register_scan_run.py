@@ -14,7 +14,7 @@ from regscribe.cli.shared.failure import unwritten
 from regscribe.cli.shared.live_report import failure, refused_if
 from regscribe.cli.shared.long_work import progress
 from regscribe.cli.shared.output import hexadecimal, print_json, remark, show_table
-from regscribe.cli.shared.output_file import save
+from regscribe.cli.shared.output_file import save_result
 from regscribe.tools.live import scan, scan_files
 from regscribe.tools.live.register_scan import NOISE, RegisterScan, ScanLimits, ScanRecord, Span, of_modicon, runs
 from regscribe.tools.live.target import Target, link_of
@@ -98,7 +98,7 @@ def _keep(kept: ScanFiles, record: ScanRecord, link: str, unit: int) -> None:
         with unwritten(files.UnwrittenError):
             scan_files.save(kept.resume, record, link, unit)
     if kept.table:
-        save(kept.table, scan_files.as_table(record))
+        save_result(kept.table, scan_files.as_table(record))
 
 
 def _show(record: ScanRecord, target: Target, ended: str, *, as_json: bool) -> None:
