@@ -10,6 +10,7 @@ from regscribe.language_server.navigation import named_at, outline, references, 
 from regscribe.language_server.rename import RenameRefusedError, apply, renamed
 from regscribe.model import RegisterMap
 from regscribe.pipeline import compile_map
+from regscribe.source import SourcePlace
 
 from .conftest import At
 from .texts import HEAD
@@ -211,3 +212,8 @@ def test_words_that_stand_apart_are_told_one_by_one(at: At) -> None:
     assert "32" in found[1]
     assert "30 to 31" not in found[1]
     assert {"30", "32"} <= set(re.findall(r"\d+", found[1].split("| base |")[1].split("\n")[0]))
+
+
+def test_a_name_that_is_used_twice_in_a_line_is_changed_in_both_places() -> None:
+    first, second = SourcePlace(0, 1, 0, 3), SourcePlace(0, 6, 0, 8)
+    assert apply("[lo, -lo]", [(first, "lowest"), (second, "lowest")]) == "[lowest, -lowest]"
