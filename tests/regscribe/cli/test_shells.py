@@ -35,6 +35,7 @@ SCRIPTS = {
     [
         ("regscribe che", "check"),
         ("regscribe check --str", "--strict"),
+        ("regscribe export athena/ser", "athena/series-c"),
         ("regscribe explain RS040", "RS0401"),
         ("regscribe read --col", "--color"),
     ],

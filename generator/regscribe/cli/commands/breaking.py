@@ -14,6 +14,7 @@ from regscribe.checks import NOTHING_WAIVED
 from regscribe.cli.shared.changes_text import as_json, as_text
 from regscribe.cli.shared.ci_formats import as_concise, as_gitlab, as_junit
 from regscribe.cli.shared.compiled_maps import compiled
+from regscribe.cli.shared.completion_values import complete_map
 from regscribe.cli.shared.diagnostic_text import findings
 from regscribe.cli.shared.earlier_maps import Earlier, earlier_maps
 from regscribe.cli.shared.exit_codes import USAGE
@@ -33,7 +34,7 @@ VERDICTS = [verdict.word for verdict in Verdict if verdict]
     epilog="Example: regscribe breaking maps/ --against git:HEAD~1 --fail-on minor\n\n"
     "Exit code 0: nothing asks for as much as --fail-on, 1: something does, 2: wrong usage, or a map with errors.",
 )
-@click.argument("paths", nargs=-1, metavar="[MAP]...")
+@click.argument("paths", nargs=-1, metavar="[MAP]...", shell_complete=complete_map)
 @click.option("--against", required=True, metavar="git:REF|FOLDER|FILE", help="The earlier version.")
 @click.option(
     "--level",

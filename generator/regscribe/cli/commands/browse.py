@@ -6,6 +6,7 @@ import click
 
 from regscribe import register_browser
 from regscribe.cli.shared.compiled_maps import compiled_maps
+from regscribe.cli.shared.completion_values import complete_map
 from regscribe.cli.shared.diagnostic_text import count
 from regscribe.cli.shared.map_arguments import find_maps
 from regscribe.cli.shared.map_builds import counts_of
@@ -17,7 +18,7 @@ from regscribe.cli.shared.output_file import none_for_stdout, save_result
     epilog="Example: regscribe browse fdc/series-100 -o registers.html\n\n"
     "Exit code 0: done, 1: errors in a map (nothing is written), 2: wrong usage.",
 )
-@click.argument("maps", nargs=-1, metavar="[MAP]...")
+@click.argument("maps", nargs=-1, metavar="[MAP]...", shell_complete=complete_map)
 @click.option(
     "-o",
     "--out",

@@ -6,6 +6,7 @@ import click
 
 from regscribe.cli.shared.ci_formats import as_concise, as_gitlab, as_junit
 from regscribe.cli.shared.compiled_maps import compiled
+from regscribe.cli.shared.completion_values import complete_map
 from regscribe.cli.shared.diagnostic_text import count, findings, tally
 from regscribe.cli.shared.map_arguments import find_maps
 from regscribe.cli.shared.output import show, tell, tell_done
@@ -21,7 +22,7 @@ FORMS = ("text", "concise", "json", "github", "gitlab", "junit", "sarif")
     epilog="Example: regscribe check maps/ --format github\n\n"
     "Exit code 0: no error (warnings do not count, unless --strict), 1: findings, 2: wrong usage.",
 )
-@click.argument("paths", nargs=-1, metavar="[PATH]...")
+@click.argument("paths", nargs=-1, metavar="[PATH]...", shell_complete=complete_map)
 @click.option("--format", "form", type=click.Choice(FORMS), default="text", show_default=True)
 @click.option(
     "--stdin-filename",

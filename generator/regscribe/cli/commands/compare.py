@@ -7,6 +7,7 @@ import click
 
 from regscribe.cli.shared.comparison_text import as_csv, as_json, as_text
 from regscribe.cli.shared.compiled_maps import compiled
+from regscribe.cli.shared.completion_values import complete_map
 from regscribe.cli.shared.diagnostic_text import findings, tally
 from regscribe.cli.shared.map_arguments import find_map
 from regscribe.cli.shared.output import raised_as, refuse, show, tell, warn
@@ -23,7 +24,7 @@ TABLES = {".csv", ".tsv", ".txt"}
     epilog="Example: regscribe compare athena/series-c second.csv --columns address,access,default=factory\n\n"
     "Exit code 0: nothing differs, 1: something does (or the map has errors), 2: wrong usage, or a table that is none.",
 )
-@click.argument("map_name", metavar="MAP")
+@click.argument("map_name", metavar="MAP", shell_complete=complete_map)
 @click.argument("other", metavar="TABLE.csv|MAP")
 @click.option("--columns", metavar="A,B,...", help="Compare only these; A=HEADER where the table calls it otherwise.")
 @click.option("--model", default="", metavar="M", help="Only this model; the one of a table without column `model`.")

@@ -6,6 +6,7 @@ from dataclasses import asdict
 import click
 
 from regscribe.cli.shared.compiled_maps import compiled_maps
+from regscribe.cli.shared.completion_values import complete_map
 from regscribe.cli.shared.diagnostic_text import count
 from regscribe.cli.shared.map_arguments import find_maps
 from regscribe.cli.shared.output import Piece, print_json, show, tell
@@ -20,7 +21,7 @@ from regscribe.visible import safe
     epilog="Example: regscribe coverage athena/series-c --format json\n\n"
     "Exit code 0: done, 1: errors in a map (nothing is printed to standard output), 2: wrong usage.",
 )
-@click.argument("maps", nargs=-1, metavar="[MAP]...")
+@click.argument("maps", nargs=-1, metavar="[MAP]...", shell_complete=complete_map)
 @click.option("--format", "form", type=click.Choice(["text", "json", "markdown"]), default="text", show_default=True)
 def command(*, maps: tuple[str, ...], form: str) -> None:
     """Count what maps cover: addresses, facts of registers, worked examples; list what is inferred and open.

@@ -8,6 +8,7 @@ import click
 
 from regscribe import plugins
 from regscribe.cli.shared.compiled_maps import compiled_maps
+from regscribe.cli.shared.completion_values import complete_map
 from regscribe.cli.shared.failure import unwritten
 from regscribe.cli.shared.loss_report import FORMS, report_of
 from regscribe.cli.shared.map_arguments import find_maps
@@ -27,7 +28,7 @@ from regscribe.plugins import OptionError, PluginError
     "Exit code 0: done, 1: errors in a map or a broken exporter (nothing is printed to standard output), or losses "
     "with --strict, 2: wrong usage.",
 )
-@click.argument("maps", nargs=-1, metavar="[MAP]...")
+@click.argument("maps", nargs=-1, metavar="[MAP]...", shell_complete=complete_map)
 @click.option(
     "-o",
     "--out",

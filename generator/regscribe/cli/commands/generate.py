@@ -8,6 +8,7 @@ from time import perf_counter
 
 import click
 
+from regscribe.cli.shared.completion_values import complete_map
 from regscribe.cli.shared.diagnostic_text import count, report
 from regscribe.cli.shared.failure import unwritten
 from regscribe.cli.shared.map_arguments import find_maps
@@ -51,7 +52,7 @@ class Build:
     epilog="Example: regscribe generate maps/acme/oven.yaml --out build/\n\n"
     "Exit code 0: done, 1: errors in a map, or with --check a difference, 2: wrong usage.",
 )
-@click.argument("maps", nargs=-1, metavar="[MAP]...")
+@click.argument("maps", nargs=-1, metavar="[MAP]...", shell_complete=complete_map)
 @click.option("--check", is_flag=True, help="Write nothing; show what would change and exit 1 if anything would.")
 @click.option("--out", type=click.Path(path_type=Path), default=Path("generated"), show_default=True, metavar="DIR")
 @click.option(

@@ -7,6 +7,7 @@ from fractions import Fraction
 import click
 
 from regscribe.cli.shared.compiled_maps import compiled_maps
+from regscribe.cli.shared.completion_values import complete_map
 from regscribe.cli.shared.diagnostic_text import count
 from regscribe.cli.shared.map_arguments import find_map
 from regscribe.cli.shared.output import print_json, raised_as, refuse, remark, show_table, tell
@@ -36,7 +37,7 @@ MOST_NAMED = 3
     epilog="Example: regscribe plan fdc/series-100 --model C21 --group setpoints --baud 19200\n\n"
     "Exit code 0: done, 1: errors in the map, 2: wrong usage.",
 )
-@click.argument("map_name", metavar="MAP")
+@click.argument("map_name", metavar="MAP", shell_complete=complete_map)
 @click.argument("ids", nargs=-1, metavar="[ID]...")
 @click.option("--model", metavar="M", help="The model that answers, where the map has several.")
 @click.option("--group", "groups", multiple=True, metavar="ID", help="All registers of a group (repeatable).")

@@ -13,6 +13,7 @@ import click
 
 from regscribe import simulate as simulator
 from regscribe.cli.shared import simulated_devices
+from regscribe.cli.shared.completion_values import complete_map
 from regscribe.cli.shared.exit_codes import STOPPED
 from regscribe.cli.shared.global_options import is_quiet
 from regscribe.cli.shared.output import raised_as, refuse, tell
@@ -55,7 +56,7 @@ class Options(TypedDict):
     epilog="Example: regscribe simulate athena/series-c --model 16C --tcp 127.0.0.1:5020 --process on\n\n"
     "Exit code 130: stopped by Ctrl-C, 1: errors in the map, port in use or serial device absent, 2: wrong usage.",
 )
-@click.argument("map_name", metavar="[MAP]", required=False)
+@click.argument("map_name", metavar="[MAP]", required=False, shell_complete=complete_map)
 @click.option("--model", metavar="M", help="The manual's name of the model, where the map has several.")
 @click.option("--unit", type=click.IntRange(0, 255), metavar="N", help="Unit id; without it the map's default.")
 @given_option

@@ -6,6 +6,7 @@ from time import perf_counter
 import click
 
 from regscribe.cli.shared.compiled_maps import compiled_maps
+from regscribe.cli.shared.completion_values import complete_map
 from regscribe.cli.shared.diagnostic_text import count
 from regscribe.cli.shared.failure import unwritten
 from regscribe.cli.shared.map_arguments import find_maps
@@ -18,7 +19,7 @@ from regscribe.visible import safe
     epilog="Example: regscribe site maps/ -o site/ && python -m http.server --directory site/\n\n"
     "Exit code 0: done, 1: errors in a map or links that lead nowhere (nothing is written), 2: wrong usage.",
 )
-@click.argument("maps", nargs=-1, metavar="[MAP]...")
+@click.argument("maps", nargs=-1, metavar="[MAP]...", shell_complete=complete_map)
 @click.option("-o", "--out", type=click.Path(path_type=Path), default=Path("site"), show_default=True, metavar="DIR")
 @click.option(
     "--docs",

@@ -6,6 +6,7 @@ from contextlib import suppress
 import click
 from click.shell_completion import CompletionItem
 
+from regscribe.map_files import LOCAL, ids_in, shipped
 from regscribe.tools.live import catalogue, config, link_names, names, target, value_text
 
 Finder = Callable[[click.Context, str], Iterable[tuple[str, str]]]
@@ -37,6 +38,14 @@ def complete_target(context: click.Context, typed: str) -> Iterable[tuple[str, s
 def complete_model(context: click.Context, _: str) -> Iterable[tuple[str, str]]:
     """Models of the drivers."""
     return [(one.model, catalogue.title(one)) for one in catalogue.models(tuple(context.params.get("packages") or ()))]
+
+
+def complete_map(_context: click.Context, _parameter: click.Parameter, typed: str) -> list[CompletionItem]:
+    """Ids of maps, here and shipped; files where no id begins so."""
+    with suppress(Exception):  # as above
+        if found := [one for one in sorted(set(ids_in((LOCAL, shipped())))) if one.startswith(typed)]:
+            return [CompletionItem(one) for one in found]
+    return [CompletionItem(typed, type="file")]
 
 
 @_completer
