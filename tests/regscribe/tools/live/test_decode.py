@@ -216,7 +216,7 @@ def test_signed_words_are_taken_as_well() -> None:
         ("4049=65536", "`65536` is no word"),
         ("4049=", "`` is no word"),
         ("60000=1", "no register of 16C has the address 60000"),
-        ("setpont=1", "did you mean `setpoint_ram`?"),
+        ("setpont=1", "did you mean `setpoint_ram`"),
     ],
 )
 def test_words_that_cannot_be_placed_are_refused_with_what_to_write(text: str, said: str) -> None:
