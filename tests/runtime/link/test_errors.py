@@ -74,10 +74,15 @@ def test_a_host_that_is_not_there(kind: str, host: str, said: str) -> None:
         opened(kind, host, port=9)
 
 
-@pytest.mark.parametrize("host", ["a" * 300, "..", "[::1"])
+@pytest.mark.parametrize("host", ["a" * 300, ".."])
 def test_a_host_name_that_is_none(host: str) -> None:
     with pytest.raises(LinkLost, match="is unknown"):
         opened("tcp", host)
+
+
+def test_an_address_with_half_of_its_brackets_is_no_host() -> None:
+    with pytest.raises(ValueError, match="is no host"):
+        opened("tcp", "[::1")
 
 
 def test_a_server_of_something_else_is_told_from_a_modbus_server() -> None:
