@@ -108,7 +108,7 @@ def _stated(decoder: Decoder, texts: Sequence[str]) -> list[tuple[int, Decoded]]
         raise TargetError(message)
     found = []
     for line, text in enumerate(texts, 1):
-        asked, answered = stated_words.exchange(decoder.driver, text)
+        asked, answered = stated_words.exchange(decoder.driver, text, decoder.first)
         decoder.feed(asked)
         found.append((line, decoder.feed(answered)))
     return found

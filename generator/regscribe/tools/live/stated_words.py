@@ -1,11 +1,12 @@
 """Words that somebody has read elsewhere, as frames: `4095=0x24` is an answer with that word from holding 4095."""
 
+from regscribe.model.address_text import MODICON
 from regscribe.tools.live.addresses import found_at, is_address
 from regscribe.tools.live.errors import TargetError
 from regscribe.tools.live.names import Driver, register_named
 from regscribe.tools.live.value_text import whole_of
 from regscribe_runtime.planning.address_ranges import places
-from regscribe_runtime.values.views import read_view
+from regscribe_runtime.values.views import View, read_view
 from regscribe_runtime.values.wire_types import Space
 from regscribe_runtime.wire.capture import CapturedFrame
 from regscribe_runtime.wire.pdu import encode_reply, encode_request
@@ -18,15 +19,15 @@ _WORDS = range(-0x8000, 0x10000)
 """A word as a number, with a sign or without."""
 
 
-def exchange(driver: Driver, text: str) -> tuple[CapturedFrame, CapturedFrame]:
-    """The request and the answer that `ADDRESS=WORD,...` or `NAME=WORD,...` stand for; TargetError."""
+def exchange(driver: Driver, text: str, first: int = 0) -> tuple[CapturedFrame, CapturedFrame]:
+    """The request and the answer that `ADDRESS=WORD,...` or `NAME=WORD,...` stand for; `first` is 1 for JBUS; TargetError."""
     where, _, digits = text.partition("=")
     words = tuple(map(_word, digits.split(",")))
     space, address, size = _place(driver, where.strip())
     if len(words) < size:
         message = f"{where} has {size} words: write {where}={','.join(['0x0'] * size)}, the first one first"
         raise TargetError(message)
-    request = Request(space.read_function, address, len(words))
+    request = Request(space.read_function, address + first, len(words))
     if space.is_bits and not set(words) <= {0, 1}:
         message = f"{text}: a bit is 0 or 1"
         raise TargetError(message)
@@ -51,6 +52,7 @@ def _place(driver: Driver, where: str) -> tuple[Space, int, int]:
     if where in driver.registers or not is_address(where):
         register = register_named(driver, where)
         view = read_view(register)
+        _check_plain(view, where)
         return view.space, next(address for one, address in places(register) if one == view), view.words
     meaning, hits = found_at(where, driver.registers, driver.model)
     begun = [hit for hit in hits if hit.word == 0]
@@ -58,4 +60,12 @@ def _place(driver: Driver, where: str) -> tuple[Space, int, int]:
         hit = hits[0]
         message = f"{where} of {driver.model} is {hit.spelled}: write {hit.first}={','.join(['0x0'] * hit.view.words)}"
         raise TargetError(message)
+    for hit in begun:
+        _check_plain(hit.view, where)
     return meaning.space or Space.HOLDING, meaning.address, min(hit.view.words for hit in begun)
+
+
+def _check_plain(view: View, where: str) -> None:
+    if view.is_apart or view.space not in MODICON:
+        message = f"the words of {where} do not stand side by side in a space that all devices have: give a frame"
+        raise TargetError(message)

@@ -222,3 +222,10 @@ def test_signed_words_are_taken_as_well() -> None:
 def test_words_that_cannot_be_placed_are_refused_with_what_to_write(text: str, said: str) -> None:
     with pytest.raises(TargetError, match=re.escape(said)):
         exchange(OVEN, text)
+
+
+def test_an_address_of_a_word_is_that_of_the_map_where_a_line_counts_from_1_too() -> None:
+    decoder = Decoder(OVEN, first=1)
+    asked, answered = exchange(OVEN, "4049=3", decoder.first)
+    decoder.feed(asked)
+    assert [item.spelled for item in decoder.feed(answered).items] == ["input_type = J_THERMOCOUPLE"]
