@@ -20,7 +20,7 @@ _WORDS = range(-0x8000, 0x10000)
 
 
 def exchange(driver: Driver, text: str, first: int = 0) -> tuple[CapturedFrame, CapturedFrame]:
-    """The request and the answer that `ADDRESS=WORD,...` or `NAME=WORD,...` stand for; `first` is 1 for JBUS; TargetError."""
+    """Return request and answer for `ADDRESS=WORD,..` or `NAME=WORD,..`; `first` is 1 for JBUS. Raises TargetError."""
     where, _, digits = text.partition("=")
     words = tuple(map(_word, digits.split(",")))
     space, address, size = _place(driver, where.strip())
