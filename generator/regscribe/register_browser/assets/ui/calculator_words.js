@@ -18,7 +18,7 @@ function wordRow(state, word, place, width) {
   const address = view.address + (view.offsets?.[place] ?? place)
   const trouble = `trouble-word-${place}`
   const set = (number, focus) => {
-    state.choice.words = state.choice.words.map((one, at) => (at === place ? number : one))
+    state.choice.words = (state.choice.words ?? words).map((one, at) => (at === place ? number : one))
     state.choice.text = null
     state.again(focus)
   }
