@@ -77,13 +77,14 @@ def module(tmp_path_factory: pytest.TempPathFactory) -> Iterator[Callable[[str],
         for path, text in python.render(found.map).items():
             (out / path).parent.mkdir(parents=True, exist_ok=True)
             (out / path).write_text(text, encoding="utf-8")
-    regscribe_devices.__path__.append(str(out / "regscribe_devices"))
+    before = regscribe_devices.__path__
+    regscribe_devices.__path__ = [*before, str(out / "regscribe_devices")]
 
     def load(name: str) -> ModuleType:
         return importlib.import_module(f"regscribe_devices.rows.{name}")
 
     yield load
-    regscribe_devices.__path__.pop()
+    regscribe_devices.__path__ = before
     for name in [name for name in sys.modules if name.startswith("regscribe_devices.rows")]:
         del sys.modules[name]
 

@@ -129,13 +129,14 @@ def out(maps: Path) -> Path:
 @pytest.fixture(scope="module")
 def module(out: Path) -> Iterator[Callable[[str], Any]]:
     """Import one of the drivers."""
-    regscribe_devices.__path__.append(str(out / "regscribe_devices"))
+    before = regscribe_devices.__path__
+    regscribe_devices.__path__ = [*before, str(out / "regscribe_devices")]
 
     def load(name: str) -> ModuleType:
         return importlib.import_module(f"regscribe_devices.alone.{name}")
 
     yield load
-    regscribe_devices.__path__.pop()
+    regscribe_devices.__path__ = before
     for name in [name for name in sys.modules if name.startswith("regscribe_devices.alone")]:
         del sys.modules[name]
 
